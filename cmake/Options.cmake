@@ -1,0 +1,18 @@
+# What every target is compiled with: mixloop_options is linked by all of ours.
+add_library(mixloop_options INTERFACE)
+target_include_directories(mixloop_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(
+  mixloop_options
+  INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+            # The same bytes from every route and build type: no fused multiply-add that one
+            # translation unit has and another has not.
+            -ffp-contract=off)
+if(MIXLOOP_WERROR)
+  target_compile_options(mixloop_options INTERFACE -Werror)
+endif()
+
+set(MIXLOOP_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them (address,undefined or thread)")
+if(MIXLOOP_SANITIZE)
+  add_compile_options(-fsanitize=${MIXLOOP_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${MIXLOOP_SANITIZE})
+endif()
