@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "dynamics/procedure/matrix.hpp"
+#include "dynamics/procedure/taylor.hpp"
+#include "dynamics/scene/scene.hpp"
+
+namespace mixloop {
+
+/// A scene with its numbers worked out, for given parameter values, on the scalar T. Constant once made.
+template <class T>
+struct Model {
+  /// A transform whose varying parameter is scale * q + offset.
+  struct Link {
+    int parent = 0;
+    int coordinate = -1;     ///< -1: fixed
+    bool prismatic = false;
+    T scale{1};
+    T theta{0}, s{0}, a{0};  ///< of the varying one, the offset
+    T cos_theta{1}, sin_theta{0};  ///< where theta doesn't vary
+    T cos_alpha{1}, sin_alpha{0};
+    std::vector<int> path;   ///< coordinates that move this frame, ascending
+  };
+  struct Body {
+    int frame = 0;
+    T mass{0};
+    Vec3<T> center_of_mass;
+    Mat3<T> inertia;
+  };
+  struct Load {
+    int frame = 0;
+    Vec3<T> point;
+  };
+
+  std::shared_ptr<const Scene> scene;
+  std::vector<T> parameters;
+  std::vector<Link> links;  ///< link i makes frame i + 1
+  std::vector<Body> bodies;
+  std::vector<Load> loads;
+  Vec3<T> gravity;
+  Vec3<T> end_effector_point;
+
+  int n() const { return scene->n(); }
+  int m() const { return scene->m(); }
+  /// The coordinates that move a frame.
+  const std::vector<int>& path(int frame) const {
+    static const std::vector<int> none;
+    return frame == 0 ? none : links[static_cast<std::size_t>(frame - 1)].path;
+  }
+};
+
+namespace detail {
+
+/// cos or sin (`quarter` = 0 or 1 turns back) of a constant angle, exact at multiples of 90 degrees:
+/// 90 deg is a right angle although pi/2 is no double.
+template <class T>
+void constant_cos_sin(double angle, T& cosine, T& sine) {
+  using std::cos, std::sin;
+  const double quarters = angle / (std::numbers::pi / 2);
+  const double nearest = std::round(quarters);
+  if (std::abs(quarters - nearest) <= 4e-16 * std::max(1.0, std::abs(nearest)) && std::abs(nearest) < 1e6) {
+    static constexpr int kCosine[] = {1, 0, -1, 0};
+    const int turn = static_cast<int>(((static_cast<long>(nearest) % 4) + 4) % 4);
+    cosine = T(kCosine[turn]);
+    sine = T(kCosine[(turn + 3) % 4]);
+    return;
+  }
+  cosine = cos(T(angle));
+  sine = sin(T(angle));
+}
+
+}  // namespace detail
+
+/// The model of `scene` at these parameter values (as many as the scene has, in its order).
+/// The scene has been checked for its defaults; check_physical does so for others.
+template <class T>
+Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> parameters) {
+  using std::cos, std::sin;
+  const Symbols symbols(*scene);
+  Model<T> model;
+  model.scene = scene;
+  model.parameters.assign(parameters.begin(), parameters.end());
+  const auto number = [&](const Formula& formula) {
+    return evaluate<T>(formula, [&](int symbol) { return parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)]; });
+  };
+  const auto vector = [&](const std::array<Formula, 3>& formulas) -> Vec3<T> {
+    return Vec3<T>(number(formulas[0]), number(formulas[1]), number(formulas[2]));
+  };
+  // An affine formula of a coordinate: v = its value at q = 0, d = its slope.
+  const auto affine = [&](const Formula& formula, int coordinate) {
+    return evaluate<Taylor<T>>(formula, [&](int symbol) {
+      if (symbols.is_parameter(symbol)) return Taylor<T>(parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)]);
+      return Taylor<T>(T(0), T(symbol == symbols.q0 + coordinate ? 1 : 0), T(0));
+    });
+  };
+
+  for (const auto& transform : scene->transforms) {
+    typename Model<T>::Link link;
+    link.parent = transform.parent;
+    link.coordinate = transform.coordinate.value_or(-1);
+    link.prismatic = transform.prismatic;
+    const Taylor<T> theta = affine(transform.theta, link.coordinate), s = affine(transform.s, link.coordinate);
+    link.theta = theta.v;
+    link.s = s.v;
+    if (link.coordinate >= 0) link.scale = link.prismatic ? s.d : theta.d;
+    link.a = number(transform.a);
+    const auto cos_sin = [&](const Formula& formula, const T& angle, T& cosine, T& sine) {
+      if (formula.is_constant()) return detail::constant_cos_sin(formula.constant(), cosine, sine);
+      cosine = cos(angle);
+      sine = sin(angle);
+    };
+    cos_sin(transform.alpha, number(transform.alpha), link.cos_alpha, link.sin_alpha);
+    if (link.coordinate < 0 || link.prismatic) cos_sin(transform.theta, link.theta, link.cos_theta, link.sin_theta);
+    link.path = model.path(link.parent);
+    if (link.coordinate >= 0 && std::find(link.path.begin(), link.path.end(), link.coordinate) == link.path.end())
+      link.path.insert(std::upper_bound(link.path.begin(), link.path.end(), link.coordinate), link.coordinate);
+    model.links.push_back(std::move(link));
+  }
+  for (const auto& body : scene->bodies) {
+    typename Model<T>::Body made;
+    made.frame = body.frame;
+    made.mass = number(body.mass);
+    made.center_of_mass = vector(body.center_of_mass);
+    const auto I = [&](std::size_t i) { return number(body.inertia[i]); };
+    made.inertia << I(0), I(3), I(4), I(3), I(1), I(5), I(4), I(5), I(2);
+    model.bodies.push_back(std::move(made));
+  }
+  for (const auto& load : scene->loads) model.loads.push_back({load.frame, vector(load.point)});
+  model.gravity = vector(scene->gravity);
+  model.end_effector_point = vector(scene->end_effector.point);
+  return model;
+}
+
+}  // namespace mixloop

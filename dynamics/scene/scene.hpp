@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "notation/formula.hpp"
+
+namespace mixloop {
+
+/// A mechanism as its file describes it, checked, in SI and radians, constants folded.
+///
+/// Formulas refer to numbered symbols (see Symbols). Numbers that depend on no parameter are constant
+/// formulas; constraints and loads may depend on time.
+struct Scene {
+  /// An independent coordinate psi_i: an angle, or a displacement where `linear`.
+  struct Motor {
+    std::string name;
+    bool linear = false;
+  };
+
+  /// A dependent coordinate q_j and the constraint equation that gives it, (1).
+  struct Coordinate {
+    std::string name;
+    Formula constraint;
+  };
+
+  /// A number that stays variable at run time, with its default.
+  struct Parameter {
+    std::string name;
+    Dimension dimension;
+    double value = 0;
+    Place place;
+  };
+
+  /// A Denavit-Hartenberg transform, from frame `parent` to the frame that it makes.
+  /// At most one of theta and s contains a coordinate, and is affine in it.
+  struct Transform {
+    std::string from, to;
+    int parent = 0;                  ///< index of the frame `from`; frame i + 1 is made by transform i
+    Formula theta, s, a, alpha;      ///< rad, m, m, rad
+    std::optional<int> coordinate;   ///< index of the varying coordinate
+    bool prismatic = false;          ///< it varies s, not theta
+    Place place;
+  };
+
+  /// A rigid body (5): its frame, mass, centre of mass and inertia about it in the frame's axes.
+  struct Body {
+    std::string name;
+    int frame = 0;
+    Formula mass;
+    std::array<Formula, 3> center_of_mass;
+    std::array<Formula, 6> inertia;  ///< xx, yy, zz, xy, xz, yz (tensor elements: I_xy = -integral x y dm)
+    Place place;
+  };
+
+  /// An external force (inertial axes) at a point of a frame, and a moment (frame axes), (21).
+  struct Load {
+    int frame = 0;
+    std::array<Formula, 3> point, force, moment;
+  };
+
+  struct EndEffector {
+    int frame = 0;
+    std::array<Formula, 3> point;
+    std::vector<int> axes = {0, 1, 2};  ///< which of x, y, z a path prescribes
+  };
+
+  /// A quantity that no path may take through zero, e.g. sin(q4) for a parallelogram.
+  struct Singularity {
+    std::string name;
+    Formula measure;
+    Place place;
+  };
+
+  std::string name;
+  std::vector<Motor> motors;
+  std::vector<Coordinate> coordinates;
+  std::vector<int> evaluation_order;  ///< of the constraints: each after those it refers to
+  std::vector<Parameter> parameters;
+  std::vector<Transform> transforms;  ///< parents first
+  std::vector<std::string> frames;    ///< names; frame 0 is the ground
+  std::vector<Body> bodies;
+  std::vector<Load> loads;
+  std::array<Formula, 3> gravity;     ///< m/s^2, inertial axes
+  EndEffector end_effector;
+  std::vector<double> home;           ///< psi that picks the branch of the inverse kinematics
+  std::vector<Singularity> singularities;
+  std::vector<std::string> warnings;  ///< `file:line:column: what`, e.g. a triangle inequality
+  std::string canonical;              ///< a text equal for equal mechanisms, to hash
+
+  int n() const { return static_cast<int>(motors.size()); }
+  int m() const { return static_cast<int>(coordinates.size()); }
+  std::vector<double> default_parameters() const;
+};
+
+/// The numbers of a scene's symbols in its formulas: time, then parameters, psi and q.
+struct Symbols {
+  explicit Symbols(const Scene& scene)
+      : psi0(1 + static_cast<int>(scene.parameters.size())), q0(psi0 + scene.n()) {}
+  Symbols(int parameters, int motors) : psi0(1 + parameters), q0(psi0 + motors) {}
+
+  static constexpr int kTime = 0;
+  static constexpr int kParameter0 = 1;
+  int psi0;
+  int q0;
+
+  bool is_parameter(int symbol) const { return symbol >= kParameter0 && symbol < psi0; }
+  bool is_psi(int symbol) const { return symbol >= psi0 && symbol < q0; }
+  bool is_q(int symbol) const { return symbol >= q0; }
+};
+
+}  // namespace mixloop
