@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/plant_link.hpp"
+
+namespace mixloop {
+
+/// The control law as the peer calls it.
+struct ControllerSide {
+  /// The motor torques for a tick, from its state and its own reference. Must not allocate, lock or throw.
+  std::function<void(std::int64_t tick, std::span<const double> psi, std::span<const double> psid,
+                     const reference_t& reference, std::span<double> tau)>
+      compute;
+  /// Optional: called with the first STATE of every session, before its compute; forgets what was. May
+  /// allocate and throw.
+  std::function<void(const state_t& first)> begin;
+  /// Whether the law keeps something from tick to tick: then it can't join a session late.
+  bool has_memory = false;
+};
+
+/// The controller's side of the bus: answers every STATE with the COMMAND that its law gives for it and for
+/// the REFERENCE of the same tick, whichever comes first; never uses another tick's. A repeated STATE is
+/// answered by the same bytes, an older one is dropped.
+///
+/// After start-up a tick costs no allocation, lock or throw of ours.
+class ControllerPeer {
+ public:
+  ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptions& options, ControllerSide side);
+
+  /// Runs until the plant says END, somebody says STOP, or the switch is turned. Throws RunFault `lost_peer`
+  /// (no STATE, or no REFERENCE for it, for too long), `config_mismatch`, `joined_late` (a law with memory),
+  /// `not_finite` (the law gave no number: nothing of that tick is sent).
+  Ending run();
+
+  const PeerReport& report() const { return link_.report; }
+
+ private:
+  static constexpr std::int64_t kAhead = 64;  // references of this many ticks are kept
+
+  struct Kept {
+    std::int64_t tick;
+    reference_t message;
+  };
+  Kept& kept(std::int64_t tick) { return ring_[static_cast<std::size_t>(tick % kAhead)]; }
+
+  void begin_session();
+  void answer_if_ready();
+  void repeat();
+  void require_planner() const;
+  void on_reference(Bytes bytes);
+
+  Bus& bus_;
+  PeerOptions options_;
+  ControllerSide side_;
+  PlantLink link_;
+  Inbox<reference_t> inbox_;
+  Outbox<command_t> command_;
+  const std::string reference_channel_, command_channel_;
+
+  std::vector<Kept> ring_;
+  std::int64_t answered_ = -1;  // the latest tick of this session that has its command
+  Instant asked_{0};            // when the state that awaits its answer came
+  bool planner_agreed_ = false, planner_differs_ = false;
+  std::int64_t planner_config_ = 0;
+};
+
+}  // namespace mixloop
