@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics/scene/scene.hpp"
+#include "loop/measures.hpp"
+#include "notation/document.hpp"
+
+namespace mixloop {
+
+/// What an experiment must show: bounds on what is measured, or that it diverges.
+struct Expectation {
+  struct Bound {
+    std::string name;  ///< of the measure, e.g. "max_position_error"
+    int motor = -1;    ///< which element of a measure that has one a motor
+    double least = 0, most = 0;
+    double value_in(const Measures& measures) const;
+  };
+  std::vector<Bound> bounds;
+  bool diverges = false;
+};
+
+/// Reads `{max_position_error: 13.3 mm, max_torque: [2, 5, 3], diverges: true}`; a bound may be a pair
+/// [least, most] where a measure is a single number.
+Expectation read_expectation(const NodePtr& node, const Scene& scene);
+
+/// What was missed, a line each; empty where all is held.
+std::vector<std::string> missed(const Expectation& expectation, const Measures& measures);
+
+}  // namespace mixloop

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "loop/experiment.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "dynamics/scene/load_scene.hpp"
+#include "notation/value.hpp"
+
+namespace mixloop {
+namespace {
+
+/// `key: value` in YAML, applied to the document it belongs to.
+NodePtr overridden(NodePtr document, const std::vector<Override>& overrides, bool of_scene) {
+  static constexpr std::string_view kScene = "scene.";
+  for (const auto& [key, value] : overrides) {
+    if (key.starts_with(kScene) != of_scene) continue;
+    document = override_entry(document, of_scene ? std::string_view(key).substr(kScene.size()) : std::string_view(key), value);
+  }
+  return document;
+}
+
+std::shared_ptr<const Scene> scene_at(const Node& node, const std::filesystem::path& base, const std::vector<Override>& overrides) {
+  const std::filesystem::path file = base / text_of(node, "the path of a scene file");
+  if (!std::filesystem::exists(file)) throw InputError("no_such_file", node.place, "no scene at '" + file.string() + "' (paths count from the experiment's folder)");
+  return std::make_shared<const Scene>(load_scene(overridden(read_document(file), overrides, true)));
+}
+
+double read_rate(const Node& node) {
+  const double rate = number_of(node, kFrequency, "the rate");
+  if (!(rate >= 1 && rate <= 1e6)) throw InputError("out_of_range", node.place, fmt::format("a rate of {} Hz; expected 1 Hz to 1 MHz", rate));
+  return rate;
+}
+
+void read_limits(const NodePtr& node, Experiment& experiment) {
+  const Mapping entry(node, "the limits", {"position_error", "velocity", "torque"});
+  if (const NodePtr limit = entry.find("position_error")) experiment.position_error_limit = number_of(*limit, kLength, "the position error limit");
+  if (!(experiment.position_error_limit > 0)) throw InputError("out_of_range", entry.at("position_error")->place, "a position error limit that is not positive");
+  if (const NodePtr limit = entry.find("velocity")) experiment.limits.velocity = read_motor_values(limit, *experiment.scene, kFrequency, kLength / kTime, "the velocity limit");
+  if (const NodePtr limit = entry.find("torque")) experiment.limits.torque = read_motor_values(limit, *experiment.scene, kMoment, kForce, "the torque limit");
+}
+
+NodePtr parameters_in(const NodePtr& section) { return section ? Mapping(section, "", [&] { std::vector<std::string> all; for (const auto& entry : section->entries) all.push_back(entry.key); return all; }()).find("parameters") : nullptr; }
+
+}  // namespace
+
+Override parse_override(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError("invalid_override", {"--set " + text}, "expected key=value, e.g. --set parameters.payload='3 kg'");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return load_experiment(read_document(file), file, overrides);
+}
+
+Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  const Mapping root(overridden(document, overrides, false), "the experiment", {"scene", "rate", "path", "controller", "plant", "parameters", "limits", "expect"});
+  Experiment experiment;
+  experiment.file = file;
+  experiment.name = file.stem().string();
+  const auto base = file.parent_path();
+  experiment.scene = scene_at(*root.at("scene"), base, overrides);
+  const Scene& scene = *experiment.scene;
+  if (const NodePtr rate = root.find("rate")) experiment.rate_hz = read_rate(*rate);
+  experiment.path = read_path(root.at("path"), scene);
+
+  const NodePtr controller = root.at("controller");
+  experiment.controller = read_controller_settings(controller, scene);
+  const Mapping controller_entry(controller, "the controller", {"law", "kp", "kv", "feedforward_at", "parameters", "scene"});
+  const NodePtr other_scene = controller_entry.find("scene");
+  experiment.controller_scene = other_scene ? scene_at(*other_scene, base, {}) : experiment.scene;
+  if (experiment.controller_scene->n() != scene.n())
+    throw InputError("wrong_size", other_scene->place, fmt::format("the controller's scene has {} motors, the plant's {}", experiment.controller_scene->n(), scene.n()));
+
+  const NodePtr plant = root.find("plant");
+  if (plant) experiment.plant = read_plant_settings(plant, scene);
+  experiment.parameters = parameter_values(scene, root.find("parameters"), scene.default_parameters());
+  experiment.plant_parameters = parameter_values(scene, parameters_in(plant), experiment.parameters);
+  experiment.controller_parameters = parameter_values(*experiment.controller_scene, parameters_in(controller),
+                                                      other_scene ? experiment.controller_scene->default_parameters() : experiment.parameters);
+  if (const NodePtr limits = root.find("limits")) read_limits(limits, experiment);
+  if (const NodePtr expect = root.find("expect")) experiment.expect = read_expectation(expect, scene);
+  return experiment;
+}
+
+Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return load_scene(overridden(read_document(file), overrides, false));
+}
+
+Plan make_plan(const Experiment& experiment) {
+  const auto model = make_model<double>(experiment.scene, std::span<const double>(experiment.parameters));
+  return Plan(model, experiment.path,
+              {.rate_hz = experiment.rate_hz,
+               .stages_per_tick = experiment.plant.continuous ? 2 * experiment.plant.substeps : 1,
+               .limits = experiment.limits,
+               .start_psi = experiment.plant.initial_psi});
+}
+
+Controller make_controller(const Experiment& experiment) {
+  return Controller(Dynamics(experiment.controller_scene, experiment.controller_parameters, experiment.evaluation, {Purpose::mass_times, Purpose::bias}), experiment.controller);
+}
+
+Plant make_plant(const Experiment& experiment, const Plan& plan) {
+  const Vector start = plan.at(0).psi;
+  return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, {Purpose::forward_dynamics}), experiment.plant, experiment.rate_hz, span_of(start));
+}
+
+CommonGround common_ground(const Experiment& experiment) {
+  CommonGround ground;
+  ground.rate = fmt::format("{:a}", experiment.rate_hz);
+  ground.mechanism = experiment.scene->canonical;
+  for (const auto& via : experiment.path.vias)
+    ground.path += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(), via.duration, via.dwell);
+  ground.path += fmt::format("repeat {} from", experiment.path.repeat);
+  for (const double psi : experiment.plant.initial_psi) ground.path += fmt::format(" {:a}", psi);
+  for (const double value : experiment.parameters) ground.parameters += fmt::format("{:a} ", value);
+  return ground;
+}
+
+}  // namespace mixloop

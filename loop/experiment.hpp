@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "controller/control_law.hpp"
+#include "loop/expectation.hpp"
+#include "planner/plan.hpp"
+#include "plant/plant.hpp"
+
+namespace mixloop {
+
+/// A `--set key=value`.
+struct Override {
+  std::string key;
+  std::string value;
+};
+
+/// Splits `key=value`; throws InputError where there is no `=`.
+Override parse_override(const std::string& text);
+
+/// What to run with a scene; docs/experiments.md describes the file. The three processes read the same one.
+struct Experiment {
+  std::string name;               ///< the file's stem
+  std::filesystem::path file;
+  std::shared_ptr<const Scene> scene;             ///< of the plant and the planner
+  std::shared_ptr<const Scene> controller_scene;  ///< what the controller takes the robot for
+  double rate_hz = 1000;
+  Path path;
+  ControllerSettings controller;
+  PlantSettings plant;
+  std::vector<double> parameters;             ///< shared
+  std::vector<double> plant_parameters;
+  std::vector<double> controller_parameters;
+  double position_error_limit = 0.1;          ///< m: past it the run has diverged
+  PlanLimits limits;
+  Expectation expect;
+  Evaluation evaluation = Evaluation::machine_code;  ///< of the equations of motion, everywhere
+};
+
+/// Reads an experiment with overrides on top (`scene.` before an entry of the scene's own). Throws InputError.
+Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides);
+Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file, const std::vector<Override>& overrides);
+
+/// A scene file with overrides of its entries; `parameters.NAME` sets a default.
+Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
+
+/// The parts of the loop. make_plan checks the whole path first and throws InputError where it can't be run.
+Plan make_plan(const Experiment& experiment);
+Controller make_controller(const Experiment& experiment);
+Plant make_plant(const Experiment& experiment, const Plan& plan);
+
+/// What plant, controller and planner must have in common, a text each to hash: rate, mechanism, path and
+/// shared parameters.
+struct CommonGround {
+  std::string rate, mechanism, path, parameters;
+};
+CommonGround common_ground(const Experiment& experiment);
+
+}  // namespace mixloop

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "loop/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mixloop {
+namespace {
+
+bool all_finite(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+Recorder::Recorder(const Experiment& experiment, const Plan& plan)
+    : plan_(plan),
+      kinematics_(experiment.scene, experiment.plant_parameters, experiment.evaluation, {Purpose::end_effector}),
+      axes_(experiment.scene->end_effector.axes),
+      n_(static_cast<std::size_t>(experiment.scene->n())),
+      rate_hz_(experiment.rate_hz),
+      limit_(experiment.position_error_limit),
+      rows_(static_cast<std::size_t>(plan.ticks() + 1) * 4 * n_),
+      zero_(n_, 0.0),
+      out_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
+  measures_.max_torque = Vector::Zero(experiment.scene->n());
+}
+
+bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid) {
+  if (!all_finite(psi) || !all_finite(psid)) return diverged(k);
+  kinematics_.end_effector(psi, psid, zero_, time(k), out_);
+  const auto& desired = plan_.at(k).position;
+  double squared = 0;
+  for (const int axis : axes_) squared += (out_[static_cast<std::size_t>(axis)] - desired[axis]) * (out_[static_cast<std::size_t>(axis)] - desired[axis]);
+  error_ = std::sqrt(squared);
+  if (!(error_ <= limit_)) return diverged(k);
+
+  double* to = rows_.data() + static_cast<std::size_t>(k) * 4 * n_;
+  std::copy(psi.begin(), psi.end(), to);
+  std::copy(psid.begin(), psid.end(), to + n_);
+  return true;
+}
+
+bool Recorder::command(std::int64_t k, std::span<const double> tau, std::span<const double> applied) {
+  if (!all_finite(tau)) return diverged(k);
+  double* to = rows_.data() + static_cast<std::size_t>(k) * 4 * n_;
+  std::copy(tau.begin(), tau.end(), to + 2 * n_);
+  std::copy(applied.begin(), applied.end(), to + 3 * n_);
+  recorded_ = k + 1;
+  measures_.max_torque = measures_.max_torque.cwiseMax(map_of(tau).cwiseAbs());
+  if (k < plan_.start_tick()) return true;
+  if (error_ > measures_.max_position_error) {
+    measures_.max_position_error = error_;
+    measures_.time_of_max_position_error = time(k);
+  }
+  measures_.final_position_error = error_;
+  sum_of_squares_ += error_ * error_;
+  ++errors_;
+  return true;
+}
+
+bool Recorder::diverged(std::int64_t k) {
+  measures_.diverged_at = time(k);
+  return false;
+}
+
+void Recorder::interrupted() { measures_.interrupted_at = time(std::max<std::int64_t>(recorded_ - 1, 0)); }
+
+Measures Recorder::measures() const {
+  Measures result = measures_;
+  result.ticks = std::max<std::int64_t>(recorded_ - 1, 0);
+  if (errors_ > 0) result.rms_position_error = std::sqrt(sum_of_squares_ / static_cast<double>(errors_));
+  Sha256 hash;
+  for (std::int64_t k = 0; k < recorded_; ++k) {
+    const double t = time(k);
+    hash.add(std::span<const double>(&t, 1));
+    for (std::size_t column = 0; column < 3; ++column) hash.add(row(k, column));
+  }
+  result.trajectory_sha256 = hash.hex();
+  return result;
+}
+
+}  // namespace mixloop

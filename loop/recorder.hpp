@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "loop/experiment.hpp"
+#include "loop/measures.hpp"
+#include "notation/sha256.hpp"
+
+namespace mixloop {
+
+/// Keeps a run in memory, tick by tick, and judges it. Nothing allocates after construction.
+class Recorder {
+ public:
+  Recorder(const Experiment& experiment, const Plan& plan);
+
+  /// Takes the state at tick k. False where the run has diverged: the position error is past its limit or
+  /// something is not finite; then the tick is not recorded.
+  bool state(std::int64_t k, std::span<const double> psi, std::span<const double> psid);
+
+  /// Takes the command of tick k, which completes the tick. False where it is not finite.
+  bool command(std::int64_t k, std::span<const double> tau, std::span<const double> applied);
+
+  void interrupted();
+
+  std::int64_t ticks_recorded() const { return recorded_; }
+  std::span<const double> psi(std::int64_t k) const { return row(k, 0); }
+  std::span<const double> psid(std::int64_t k) const { return row(k, 1); }
+  std::span<const double> commanded(std::int64_t k) const { return row(k, 2); }
+  std::span<const double> applied(std::int64_t k) const { return row(k, 3); }
+  double time(std::int64_t k) const { return static_cast<double>(k) / rate_hz_; }
+  double position_error() const { return error_; }  ///< at the latest state, m
+
+  Measures measures() const;
+
+ private:
+  std::span<const double> row(std::int64_t k, std::size_t column) const {
+    return {rows_.data() + (static_cast<std::size_t>(k) * 4 + column) * n_, n_};
+  }
+  bool diverged(std::int64_t k);
+
+  const Plan& plan_;
+  Dynamics kinematics_;
+  std::vector<int> axes_;
+  std::size_t n_;
+  double rate_hz_, limit_;
+  std::vector<double> rows_;  ///< psi, psid, commanded, applied of each tick
+  std::vector<double> zero_, out_;
+  std::int64_t recorded_ = 0;
+  double error_ = 0, sum_of_squares_ = 0;
+  std::int64_t errors_ = 0;
+  Measures measures_;
+};
+
+}  // namespace mixloop

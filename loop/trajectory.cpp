@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "loop/trajectory.hpp"
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+
+#include <array>
+#include <cstdio>
+#include <iterator>
+
+namespace mixloop {
+namespace {
+
+void add_vector_names(std::string& line, const char* name, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) line += fmt::format(",{}_{}", name, i + 1);
+}
+
+std::string header(std::size_t n) {
+  std::string line = "t";
+  for (const char* name : {"psi", "psid", "tau", "tau_applied"}) add_vector_names(line, name, n);
+  for (const char* kind : {"desired", "actual"})
+    for (const char* what : {"position", "velocity", "acceleration"})
+      for (const char axis : {'x', 'y', 'z'}) line += fmt::format(",{}_{}_{}", what, axis, kind);
+  return line;
+}
+
+}  // namespace
+
+void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan, const Recorder& recorder) {
+  const auto n = static_cast<std::size_t>(experiment.scene->n());
+  Dynamics dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, {Purpose::forward_dynamics, Purpose::end_effector});
+  std::vector<double> psidd(n), actual(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n())));
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  if (!out) throw RunFault("cannot_write", "cannot write " + file.string());
+  fmt::memory_buffer line;
+  const auto add = [&](std::span<const double> values) {
+    for (const double value : values) fmt::format_to(std::back_inserter(line), ",{}", value);
+  };
+  fmt::print(out, "{}\n", header(n));
+  for (std::int64_t k = 0; k < recorder.ticks_recorded(); ++k) {
+    line.clear();
+    fmt::format_to(std::back_inserter(line), "{}", recorder.time(k));
+    for (const auto& row : {recorder.psi(k), recorder.psid(k), recorder.commanded(k), recorder.applied(k)}) add(row);
+    const auto& desired = plan.at(k);
+    for (const auto* vector : {&desired.position, &desired.velocity, &desired.acceleration}) add({vector->data(), 3});
+    dynamics.forward_dynamics(recorder.psi(k), recorder.psid(k), recorder.applied(k), recorder.time(k), psidd);
+    dynamics.end_effector(recorder.psi(k), recorder.psid(k), psidd, recorder.time(k), actual);
+    add(std::span<const double>(actual).first(9));
+    line.push_back('\n');
+    std::fwrite(line.data(), 1, line.size(), out);
+  }
+  const bool failed = std::ferror(out) != 0;
+  if (std::fclose(out) != 0 || failed) throw RunFault("cannot_write", "cannot write all of " + file.string() + " (is the disk full?)");
+}
+
+}  // namespace mixloop

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dynamics/evaluator.hpp"
+#include "plant/plant_settings.hpp"
+#include "plant/rk4.hpp"
+
+namespace mixloop {
+
+/// The simulated hardware: constraint-reduced forward dynamics, a torque held from command to command (or
+/// continuous), dead time and saturation. It knows ticks, no clock.
+class Plant {
+ public:
+  Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::span<const double> psi0);
+
+  std::int64_t tick() const { return tick_; }
+  double time() const { return static_cast<double>(tick_) / rate_hz_; }  ///< t_k = k / rate
+  std::span<const double> psi() const { return {x_.data(), n_}; }
+  std::span<const double> psid() const { return {x_.data() + n_, n_}; }
+  /// The work that the motors have done, J: the integral of tau . psi'.
+  double work() const { return x_[static_cast<Eigen::Index>(2 * n_)]; }
+  /// What acts from time() on, after delay and saturation, N m or N.
+  std::span<const double> applied() const { return {applied_.data(), n_}; }
+
+  /// Takes COMMAND(tick()); it acts from t_k + command_delay on.
+  void command(std::span<const double> tau);
+
+  /// Goes on to the next tick, the commands held.
+  void advance();
+
+  /// Goes on to the next tick, `control(stage, t, psi, psid, tau)` evaluated at every stage; stages count
+  /// half steps from 0 to 2 substeps.
+  template <class Control>
+  void advance_continuously(const Control& control);
+
+  /// psi'' at the state in hand with `applied()`.
+  void acceleration(std::span<double> psidd);
+
+ private:
+  void saturate(std::span<const double> tau);
+  void integrate_held(double t, double h);
+  void rate_of(double t, const Vector& x, Vector& dx);
+
+  Dynamics dynamics_;
+  PlantSettings settings_;
+  double rate_hz_;
+  std::size_t n_;
+  std::int64_t tick_ = 0;
+  std::size_t delay_ticks_ = 0;  ///< whole ticks of the command delay
+  double delay_rest_ = 0;        ///< and the rest, s
+  Vector x_;                     ///< psi, psid, work
+  Vector applied_;
+  std::vector<Vector> commands_;  ///< a ring by tick, as long as the delay needs
+  Rk4Workspace rk4_;
+};
+
+template <class Control>
+void Plant::advance_continuously(const Control& control) {
+  const double h = 1.0 / rate_hz_ / settings_.substeps;
+  for (int step = 0; step < settings_.substeps; ++step) {
+    const double t = time() + step * h;
+    rk4_step(
+        x_, h,
+        [&](int stage, double c, const Vector& x, Vector& dx) {
+          const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
+          control(2 * step + (stage + 1) / 2, t + c * h, psi, psid, span_of(applied_));
+          saturate(span_of(std::as_const(applied_)));
+          rate_of(t + c * h, x, dx);
+        },
+        rk4_);
+  }
+  ++tick_;
+}
+
+}  // namespace mixloop
