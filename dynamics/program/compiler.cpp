@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/program/compiler.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+extern char** environ;
+
+namespace mixloop {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<fs::path> on_the_path(const std::string& name) {
+  if (name.find('/') != std::string::npos)
+    return ::access(name.c_str(), X_OK) == 0 ? std::optional<fs::path>(name) : std::nullopt;
+  const char* path = std::getenv("PATH");
+  std::istringstream directories(path != nullptr ? path : "/usr/bin:/bin");
+  for (std::string directory; std::getline(directories, directory, ':');) {
+    const fs::path candidate = fs::path(directory) / name;
+    if (!directory.empty() && ::access(candidate.c_str(), X_OK) == 0) return candidate;
+  }
+  return std::nullopt;
+}
+
+std::optional<Compiler> compiler_at(const std::string& name) {
+  const auto path = on_the_path(name);
+  if (!path) return std::nullopt;
+  std::error_code failed;
+  const fs::path file = fs::canonical(*path, failed);
+  struct stat info {};
+  if (failed || ::stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return std::nullopt;
+  std::ostringstream identity;
+  identity << file.string() << ' ' << info.st_size << ' ' << info.st_mtim.tv_sec << '.' << info.st_mtim.tv_nsec;
+  return Compiler{*path, identity.str()};
+}
+
+std::string read_processor() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string identity;
+  for (std::string line; std::getline(file, line) && !line.empty();)
+    if (line.starts_with("model") || line.starts_with("flags") || line.starts_with("CPU part") ||
+        line.starts_with("Features"))
+      identity += line + '\n';
+  return identity;
+}
+
+}  // namespace
+
+std::optional<Compiler> find_compiler() {
+  if (const char* chosen = std::getenv("MIXLOOP_CXX")) return compiler_at(chosen);
+  const char* cxx = std::getenv("CXX");
+  for (const char* name : {cxx != nullptr ? cxx : "c++", "c++", "g++", "clang++"})
+    if (auto compiler = compiler_at(name)) return compiler;
+  return std::nullopt;
+}
+
+const std::vector<std::string>& machine_code_flags() {
+  static const std::vector<std::string> flags = {
+      "-std=c++17", "-O2", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared"};
+  return flags;
+}
+
+const std::string& processor_identity() {
+  static const std::string identity = read_processor();
+  return identity;
+}
+
+bool build_shared_object(const Compiler& compiler, const fs::path& source, const fs::path& result,
+                         std::string& complaint) {
+  std::vector<std::string> words{compiler.path.string()};
+  words.insert(words.end(), machine_code_flags().begin(), machine_code_flags().end());
+  words.insert(words.end(), {"-o", result.string(), source.string()});
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+
+  const fs::path log = source.string() + ".log";
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  ::posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  pid_t child = -1;
+  const int failed = ::posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  int status = -1;
+  if (failed == 0)
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  if (failed == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
+  std::ifstream said(log);
+  complaint.assign(std::istreambuf_iterator<char>(said), {});
+  complaint.resize(std::min<std::size_t>(complaint.size(), 2000));
+  return false;
+}
+
+}  // namespace mixloop

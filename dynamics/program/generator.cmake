@@ -1,0 +1,29 @@
+# What writes programs: the sources, their hash (part of every cached program's key, so that a changed
+# generator finds no entry of the old one's), and the text of sine and cosine that emitted code carries.
+set(MIXLOOP_GENERATOR_SOURCES
+    symbolic/angles.cpp
+    symbolic/derivative.cpp
+    symbolic/expression.cpp
+    symbolic/graph.cpp
+    symbolic/harmonic.cpp
+    symbolic/literal.cpp
+    symbolic/recursive.cpp
+    symbolic/tracer.cpp
+    program/program.cpp
+    program/source.cpp
+    program/tape.cpp
+    program/trace.cpp)
+
+set(MIXLOOP_GENERATOR_HASH "")
+file(GLOB generator_headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
+     symbolic/*.hpp procedure/*.hpp scene/*.hpp program/sincos*.hpp program/source.hpp ../notation/formula.hpp)
+foreach(file IN LISTS MIXLOOP_GENERATOR_SOURCES generator_headers)
+  file(SHA256 ${CMAKE_CURRENT_SOURCE_DIR}/${file} hash)
+  string(SHA256 MIXLOOP_GENERATOR_HASH "${MIXLOOP_GENERATOR_HASH}${hash}")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+endforeach()
+
+file(READ program/sincos.hpp MIXLOOP_SINCOS_TEXT)
+file(READ program/sincos_lanes.hpp MIXLOOP_SINCOS_LANES_TEXT)
+string(REPLACE "#pragma once\n" "" MIXLOOP_SINCOS_TEXT "${MIXLOOP_SINCOS_TEXT}")
+configure_file(program/sincos_text.cpp.in sincos_text.cpp @ONLY)

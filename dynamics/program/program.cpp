@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/program/program.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace mixloop {
+
+std::string OperationCount::text() const {
+  std::string result;
+  auto say = [&](std::size_t count, const char* name) {
+    if (count > 0) result += (result.empty() ? "" : " + ") + std::to_string(count) + " " + name;
+  };
+  say(add, "add"), say(mul, "mul"), say(div, "div"), say(sqrt, "sqrt"), say(other, "exp/log/atan2"), say(sincos, "sincos");
+  return result.empty() ? "nothing" : result;
+}
+
+namespace {
+
+Program::Stage stage_of(const ExpressionNode& node, const std::vector<Program::Stage>& known) {
+  using Stage = Program::Stage;
+  if (node.op == Op::constant) return Stage::constant;
+  if (node.op == Op::input) return static_cast<Block>(node.a) == Block::parameter ? Stage::set_up : Stage::run;
+  return is_binary(node.op) ? std::max(known[node.a], known[node.b]) : known[node.a];
+}
+
+}  // namespace
+
+Program make_program(const Graph& graph, std::span<const NodeId> outputs) {
+  Program program;
+  const std::vector<bool> is_needed = needed(graph, outputs);
+  std::vector<NodeId> now(graph.size());
+  for (NodeId id = 0; id < graph.size(); ++id) {
+    if (!is_needed[id]) continue;
+    ExpressionNode node = graph[id];
+    if (node.op != Op::constant && node.op != Op::input) {
+      node.a = now[node.a];
+      if (is_binary(node.op)) node.b = now[node.b];
+    }
+    now[id] = static_cast<NodeId>(program.nodes.size());
+    program.stages.push_back(stage_of(node, program.stages));
+    program.nodes.push_back(node);
+  }
+  for (NodeId output : outputs) program.outputs.push_back(now[output]);
+  return program;
+}
+
+OperationCount Program::operations(Stage stage) const {
+  OperationCount count;
+  const std::vector<NodeId> partner = partners();
+  for (NodeId id = 0; id < nodes.size(); ++id) {
+    if (stages[id] != stage) continue;
+    switch (nodes[id].op) {
+      case Op::constant:
+      case Op::input: break;
+      case Op::neg:
+      case Op::add:
+      case Op::sub: ++count.add; break;
+      case Op::mul: ++count.mul; break;
+      case Op::div: ++count.div; break;
+      case Op::sqrt: ++count.sqrt; break;
+      case Op::sin:
+      case Op::cos: count.sincos += partner[id] > id; break;
+      case Op::exp:
+      case Op::log:
+      case Op::atan2: ++count.other; break;
+    }
+  }
+  return count;
+}
+
+std::vector<NodeId> Program::hoisted() const {
+  std::vector<bool> used(nodes.size(), false);
+  for (NodeId id = 0; id < nodes.size(); ++id) {
+    if (stages[id] != Stage::run || nodes[id].op == Op::input) continue;
+    used[nodes[id].a] = true;
+    if (is_binary(nodes[id].op)) used[nodes[id].b] = true;
+  }
+  for (NodeId output : outputs) used[output] = true;
+  std::vector<NodeId> result;
+  for (NodeId id = 0; id < nodes.size(); ++id)
+    if (used[id] && stages[id] == Stage::set_up) result.push_back(id);
+  return result;
+}
+
+std::vector<NodeId> Program::partners() const {
+  std::vector<NodeId> partner(nodes.size(), static_cast<NodeId>(nodes.size()));
+  std::map<NodeId, NodeId> first;  // angle -> the earlier of its sine and cosine
+  for (NodeId id = 0; id < nodes.size(); ++id) {
+    if (nodes[id].op != Op::sin && nodes[id].op != Op::cos) continue;
+    auto [known, fresh] = first.try_emplace(nodes[id].a, id);
+    if (fresh) continue;
+    partner[known->second] = id;
+    partner[id] = known->second;
+  }
+  return partner;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/symbolic/graph.hpp"
+
+namespace mixloop {
+
+/// Operations of a straight-line piece. A sine and a cosine of one angle count as one pair; a change of
+/// sign counts as an addition.
+struct OperationCount {
+  std::size_t add = 0, mul = 0, div = 0, sqrt = 0, sincos = 0, other = 0;
+
+  /// Everything but the sine/cosine pairs.
+  std::size_t flops() const { return add + mul + div + sqrt + other; }
+  /// `85 add + 64 mul + 1 div + 3 sincos`.
+  std::string text() const;
+};
+
+/// A straight-line program: the operations that some outputs need, operands first, and no others.
+///
+/// What depends on parameters alone stands in the set-up part, which runs when a parameter changes; the
+/// evaluation finds its results and costs nothing for them.
+struct Program {
+  enum class Stage : std::uint8_t { constant, set_up, run };
+
+  std::vector<ExpressionNode> nodes;
+  std::vector<Stage> stages;     ///< when each node's value is known
+  std::vector<NodeId> outputs;
+
+  OperationCount set_up_operations() const { return operations(Stage::set_up); }
+  OperationCount run_operations() const { return operations(Stage::run); }
+  /// Set-up values that the run or the outputs use, in order.
+  std::vector<NodeId> hoisted() const;
+  /// For each sine the cosine of its angle, and the other way round; nodes.size() where there is none.
+  std::vector<NodeId> partners() const;
+
+ private:
+  OperationCount operations(Stage stage) const;
+};
+
+Program make_program(const Graph& graph, std::span<const NodeId> outputs);
+
+}  // namespace mixloop

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace mixloop {
+
+/// A loaded library of emitted code.
+class SharedObject {
+ public:
+  /// The library kept under the SHA-256 of `key`, compiler, flags and processor; built from what `source`
+  /// returns (C++ text) where the cache has no sound one. On failure empty, and `complaint` says why.
+  static SharedObject cached(const std::string& key, const std::function<std::string()>& source,
+                             std::string& complaint);
+
+  explicit operator bool() const { return library_ != nullptr; }
+  /// The address of an exported symbol; nullptr if there is none.
+  void* symbol(const std::string& name) const;
+
+ private:
+  struct Close {
+    void operator()(void* library) const;
+  };
+  std::unique_ptr<void, Close> library_;
+};
+
+}  // namespace mixloop

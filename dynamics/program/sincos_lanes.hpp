@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The functions of emitted code on 4 and 8 lanes (GCC's and clang's vectors): lane by lane the same bits
+// as the scalar ones.
+
+namespace mixloop_lanes {
+
+template <int kLanes>
+struct Vectors;
+template <>
+struct Vectors<4> {
+  typedef double Real __attribute__((vector_size(32), aligned(8), may_alias));
+  typedef int64_t Bits __attribute__((vector_size(32)));
+};
+template <>
+struct Vectors<8> {
+  typedef double Real __attribute__((vector_size(64), aligned(8), may_alias));
+  typedef int64_t Bits __attribute__((vector_size(64)));
+};
+using Lanes4 = Vectors<4>::Real;
+using Lanes8 = Vectors<8>::Real;
+
+template <int kLanes, class Function>
+inline typename Vectors<kLanes>::Real lane_by_lane(typename Vectors<kLanes>::Real x, Function function) {
+  for (int i = 0; i < kLanes; ++i) x[i] = function(x[i]);
+  return x;
+}
+
+template <int kLanes>
+inline void sincos(typename Vectors<kLanes>::Real x, typename Vectors<kLanes>::Real* sine,
+                   typename Vectors<kLanes>::Real* cosine) {
+  using namespace mixloop_sincos;
+  using Real = typename Vectors<kLanes>::Real;
+  using Bits = typename Vectors<kLanes>::Bits;
+  const Real shifted = x * kTwoOverPi + kRound;
+  const Real k = shifted - kRound;
+  const Real r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
+  const Real z = r * r;
+  const Bits quadrant = (Bits)shifted, u = (Bits)sine_kernel(r, z), v = (Bits)cosine_kernel(z);
+  const Bits swapped = (u ^ v) & -(quadrant & 1);
+  *sine = (Real)(u ^ swapped ^ ((quadrant & 2) << 62));
+  *cosine = (Real)(v ^ swapped ^ (((quadrant + 1) & 2) << 62));
+  bool large = false;
+  for (int i = 0; i < kLanes; ++i) large |= !(x[i] < kLimit && x[i] > -kLimit);
+  if (!large) return;
+  for (int i = 0; i < kLanes; ++i) {
+    double s, c;
+    mixloop_sincos::sincos(x[i], &s, &c);
+    (*sine)[i] = s;
+    (*cosine)[i] = c;
+  }
+}
+
+}  // namespace mixloop_lanes
+
+namespace mixloop_sincos {
+inline void sincos(mixloop_lanes::Lanes4 x, mixloop_lanes::Lanes4* s, mixloop_lanes::Lanes4* c) {
+  mixloop_lanes::sincos<4>(x, s, c);
+}
+inline void sincos(mixloop_lanes::Lanes8 x, mixloop_lanes::Lanes8* s, mixloop_lanes::Lanes8* c) {
+  mixloop_lanes::sincos<8>(x, s, c);
+}
+}  // namespace mixloop_sincos
+
+namespace {
+#define MIXLOOP_LANE_BY_LANE(name, function)                                          \
+  inline mixloop_lanes::Lanes4 name(mixloop_lanes::Lanes4 x) {                        \
+    return mixloop_lanes::lane_by_lane<4>(x, [](double y) { return function(y); });   \
+  }                                                                                   \
+  inline mixloop_lanes::Lanes8 name(mixloop_lanes::Lanes8 x) {                        \
+    return mixloop_lanes::lane_by_lane<8>(x, [](double y) { return function(y); });   \
+  }
+MIXLOOP_LANE_BY_LANE(mixloop_sqrt, sqrt)
+MIXLOOP_LANE_BY_LANE(mixloop_exp, exp)
+MIXLOOP_LANE_BY_LANE(mixloop_log, log)
+#undef MIXLOOP_LANE_BY_LANE
+template <class Lanes>
+inline Lanes mixloop_atan2(Lanes y, Lanes x) {
+  for (unsigned i = 0; i < sizeof(Lanes) / sizeof(double); ++i) y[i] = atan2(y[i], x[i]);
+  return y;
+}
+}  // namespace

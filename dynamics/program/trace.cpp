@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/program/trace.hpp"
+
+#include "dynamics/symbolic/derivative.hpp"
+#include "dynamics/symbolic/tracer.hpp"
+
+namespace mixloop {
+namespace {
+
+using Nodes = std::vector<NodeId>;
+
+template <class Derived>
+void append(Nodes& nodes, const Eigen::MatrixBase<Derived>& values) {
+  for (Eigen::Index j = 0; j < values.cols(); ++j)
+    for (Eigen::Index i = 0; i < values.rows(); ++i) nodes.push_back(values(i, j).node());
+}
+
+ExpressionVector input_vector(int from, int n) {
+  ExpressionVector result(n);
+  for (int i = 0; i < n; ++i) result[i] = Expression::input(Block::input, static_cast<std::size_t>(from + i));
+  return result;
+}
+
+// psidd = M^-1 (tau - h) satisfies r = M psidd + h - tau = 0, so d psidd = -M^-1 dr at fixed psidd.
+Nodes linearisation(Graph& graph, const Scene& scene, Tracer& tracer) {
+  const int n = scene.n();
+  const TracedInputs in(scene);
+  const ExpressionVector held = input_vector(n, n);  // stands for psidd while r is differentiated
+  Nodes residual, stand_ins, psidd;
+  append(residual, tracer.inverse_dynamics(held));
+  append(stand_ins, held);
+  append(psidd, tracer.forward_dynamics(input_vector(0, n)));
+  Nodes outputs;
+  for (const ExpressionVector* x : {&in.psi, &in.psid}) {
+    ExpressionMatrix B(n, n);
+    for (int j = 0; j < n; ++j) {
+      const Nodes d = tangents(graph, residual, Nodes{(*x)[j].node()}, Nodes{graph.one()});
+      const Nodes at_psidd = substituted(graph, d, stand_ins, psidd);
+      for (int i = 0; i < n; ++i) B(i, j) = -Expression::of(at_psidd[static_cast<std::size_t>(i)]);
+    }
+    append(outputs, tracer.mass_inverse_times(B));
+  }
+  append(outputs, tracer.mass_inverse_times(ExpressionMatrix::Identity(n, n)));
+  return outputs;
+}
+
+Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracer& tracer) {
+  const int n = scene->n();
+  Nodes nodes;
+  switch (purpose) {
+    case Purpose::forward_dynamics: append(nodes, tracer.forward_dynamics(input_vector(0, n))); break;
+    case Purpose::mass_times: append(nodes, tracer.mass_times(input_vector(0, n))); break;
+    case Purpose::mass_matrix: append(nodes, tracer.mass_matrix()); break;
+    case Purpose::bias: append(nodes, tracer.bias()); break;
+    case Purpose::inverse_dynamics: append(nodes, tracer.inverse_dynamics(input_vector(0, n))); break;
+    case Purpose::linearisation: return linearisation(graph, *scene, tracer);
+    case Purpose::energy: {
+      const Energy<Expression> energy = tracer.energy();
+      nodes = {energy.kinetic.node(), energy.potential.node()};
+      break;
+    }
+    case Purpose::end_effector: {
+      const auto state = trace_end_effector(scene, input_vector(0, n));
+      append(nodes, state.position), append(nodes, state.velocity), append(nodes, state.acceleration);
+      append(nodes, state.jacobian);
+      break;
+    }
+    case Purpose::dynamics_and_mass_times:
+      append(nodes, tracer.forward_dynamics(input_vector(0, n)));
+      append(nodes, tracer.mass_times(input_vector(n, n)));
+      break;
+  }
+  return nodes;
+}
+
+std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, Tracing tracing) {
+  switch (tracing) {
+    case Tracing::recursive: return recursive_tracer(scene);
+    case Tracing::harmonic: return harmonic_tracer(scene);
+    default: return literal_tracer(scene);
+  }
+}
+
+}  // namespace
+
+Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracing tracing) {
+  Graph graph;
+  const Recording recording(graph);
+  const auto tracer = make_tracer(scene, tracing);
+  if (!tracer) return {};
+  return make_program(graph, outputs_of(graph, scene, purpose, *tracer));
+}
+
+double estimated_time(const OperationCount& count) {
+  return static_cast<double>(count.add + count.mul) + 5.0 * static_cast<double>(count.div + count.sqrt) +
+         18.0 * static_cast<double>(count.sincos) + 25.0 * static_cast<double>(count.other);
+}
+
+TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose) {
+  TracedProgram best;
+  for (Tracing tracing : {Tracing::literal, Tracing::recursive, Tracing::harmonic}) {
+    Program found = trace(scene, purpose, tracing);
+    if (found.outputs.empty()) continue;
+    if (best.program.outputs.empty() ||
+        estimated_time(found.run_operations()) < estimated_time(best.program.run_operations()))
+      best = {std::move(found), tracing};
+    if (purpose == Purpose::end_effector) break;  // kinematics: one way only
+  }
+  return best;
+}
+
+}  // namespace mixloop

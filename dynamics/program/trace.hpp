@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "dynamics/program/program.hpp"
+#include "dynamics/purpose.hpp"
+#include "dynamics/scene/scene.hpp"
+
+namespace mixloop {
+
+/// How a program's equations were written down.
+enum class Tracing : std::uint8_t { literal, recursive, harmonic };
+constexpr std::string_view name_of(Tracing tracing) {
+  return tracing == Tracing::literal ? "literal" : tracing == Tracing::recursive ? "recursive" : "harmonic";
+}
+
+/// A program and the way it was traced.
+struct TracedProgram {
+  Program program;
+  Tracing tracing = Tracing::literal;
+};
+
+/// The program of a purpose by one way of tracing; an empty one (no outputs) where that way can't.
+Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracing tracing);
+
+/// The cheapest program that the tracers find for a purpose. The same scene gives the same program on
+/// every machine: the choice goes by an estimate (see estimated_time), never by a clock.
+TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose);
+
+/// Time of an evaluation's machine code in units of an addition, as measured on several programs: sums and
+/// products 1, a division or root 5, a sine/cosine pair 18.
+double estimated_time(const OperationCount& count);
+
+}  // namespace mixloop

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/symbolic/graph.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace mixloop {
+
+double apply(Op op, double a, double b) {
+  switch (op) {
+    case Op::constant:
+    case Op::input: return a;
+    case Op::neg: return -a;
+    case Op::sqrt: return std::sqrt(a);
+    case Op::sin: return std::sin(a);
+    case Op::cos: return std::cos(a);
+    case Op::exp: return std::exp(a);
+    case Op::log: return std::log(a);
+    case Op::add: return a + b;
+    case Op::sub: return a - b;
+    case Op::mul: return a * b;
+    case Op::div: return a / b;
+    case Op::atan2: return std::atan2(a, b);
+  }
+  return a;
+}
+
+std::size_t Graph::KeyHash::operator()(const ExpressionNode& n) const {
+  std::uint64_t h = static_cast<std::uint64_t>(n.op) * 0x9E3779B97F4A7C15u;
+  for (std::uint64_t part : {(std::uint64_t{n.a} << 32) | n.b, std::bit_cast<std::uint64_t>(n.value)}) {
+    h = (h ^ part) * 0xBF58476D1CE4E5B9u;
+    h ^= h >> 29;
+  }
+  return h;
+}
+
+bool Graph::KeyEqual::operator()(const ExpressionNode& a, const ExpressionNode& b) const {
+  return a.op == b.op && a.a == b.a && a.b == b.b &&
+         std::bit_cast<std::uint64_t>(a.value) == std::bit_cast<std::uint64_t>(b.value);
+}
+
+Graph::Graph() {
+  zero_ = constant(0.0);
+  one_ = constant(1.0);
+}
+
+NodeId Graph::intern(const ExpressionNode& node) {
+  auto [found, fresh] = ids_.try_emplace(node, static_cast<NodeId>(nodes_.size()));
+  if (fresh) nodes_.push_back(node);
+  return found->second;
+}
+
+NodeId Graph::constant(double value) {
+  return intern({Op::constant, 0, 0, value == 0.0 ? 0.0 : value});  // one zero, whatever its sign
+}
+
+NodeId Graph::input(Block block, std::size_t index) {
+  return intern({Op::input, static_cast<NodeId>(block), static_cast<NodeId>(index), 0.0});
+}
+
+std::optional<double> Graph::number(NodeId id) const {
+  if (nodes_[id].op != Op::constant) return std::nullopt;
+  return nodes_[id].value;
+}
+
+NodeId Graph::unary(Op op, NodeId a) {
+  if (auto x = number(a); x && op != Op::neg) return constant(apply(op, *x));
+  switch (op) {
+    case Op::neg: return neg(a);
+    case Op::sin: return sine_cosine(a).first;
+    case Op::cos: return sine_cosine(a).second;
+    default: break;
+  }
+  return intern({op, a, 0, 0.0});
+}
+
+NodeId Graph::binary(Op op, NodeId a, NodeId b) {
+  auto x = number(a), y = number(b);
+  if (x && y) return constant(apply(op, *x, *y));
+  switch (op) {
+    case Op::add: return add(a, b);
+    case Op::sub: return sub(a, b);
+    case Op::mul: return mul(a, b);
+    case Op::div: return div(a, b);
+    default: break;
+  }
+  return intern({op, a, b, 0.0});
+}
+
+NodeId Graph::neg(NodeId a) {
+  const ExpressionNode n = nodes_[a];
+  if (n.op == Op::constant) return constant(-n.value);
+  if (n.op == Op::neg) return n.a;
+  if (n.op == Op::sub) return sub(n.b, n.a);
+  return intern({Op::neg, a, 0, 0.0});
+}
+
+NodeId Graph::add(NodeId a, NodeId b) {
+  if (a == zero_) return b;
+  if (b == zero_) return a;
+  if (is(b, Op::neg)) return sub(a, nodes_[b].a);
+  if (is(a, Op::neg)) return sub(b, nodes_[a].a);
+  if (auto one = pythagoras(a, b)) return *one;
+  if (number(b)) std::swap(a, b);
+  if (auto x = number(a)) {  // c1 + (c2 + y) = (c1 + c2) + y
+    const ExpressionNode n = nodes_[b];
+    if (auto y = n.op == Op::add ? number(n.a) : std::nullopt) return add(constant(*x + *y), n.b);
+    if (auto y = n.op == Op::add ? number(n.b) : std::nullopt) return add(constant(*x + *y), n.a);
+    if (auto y = n.op == Op::sub ? number(n.a) : std::nullopt) return sub(constant(*x + *y), n.b);
+  }
+  if (a == b) return mul(constant(2.0), a);
+  return intern({Op::add, std::min(a, b), std::max(a, b), 0.0});
+}
+
+NodeId Graph::sub(NodeId a, NodeId b) {
+  if (a == b) return zero_;
+  if (b == zero_) return a;
+  if (a == zero_) return neg(b);
+  if (is(b, Op::neg)) return add(a, nodes_[b].a);
+  if (is(a, Op::neg)) return neg(add(nodes_[a].a, b));
+  if (auto y = number(b)) return add(constant(-*y), a);
+  if (auto x = number(a)) {  // c1 - (c2 + y), c1 - (c2 - y)
+    const ExpressionNode n = nodes_[b];
+    if (auto y = n.op == Op::add ? number(n.a) : std::nullopt) return sub(constant(*x - *y), n.b);
+    if (auto y = n.op == Op::add ? number(n.b) : std::nullopt) return sub(constant(*x - *y), n.a);
+    if (auto y = n.op == Op::sub ? number(n.a) : std::nullopt) return add(constant(*x - *y), n.b);
+  }
+  return intern({Op::sub, a, b, 0.0});
+}
+
+NodeId Graph::mul(NodeId a, NodeId b) {
+  if (a == zero_ || b == zero_) return zero_;
+  if (a == one_) return b;
+  if (b == one_) return a;
+  if (is(a, Op::neg)) return neg(binary(Op::mul, nodes_[a].a, b));
+  if (is(b, Op::neg)) return neg(binary(Op::mul, a, nodes_[b].a));
+  if (number(b)) std::swap(a, b);
+  if (auto x = number(a)) {
+    if (*x < 0.0) return neg(mul(constant(-*x), b));  // c y and -c y share one product
+    const ExpressionNode n = nodes_[b];
+    if (auto y = n.op == Op::mul ? number(n.a) : std::nullopt) return mul(constant(*x * *y), n.b);
+    if (auto y = n.op == Op::mul ? number(n.b) : std::nullopt) return mul(constant(*x * *y), n.a);
+  }
+  return intern({Op::mul, std::min(a, b), std::max(a, b), 0.0});
+}
+
+NodeId Graph::div(NodeId a, NodeId b) {
+  if (a == zero_) return zero_;
+  if (b == one_) return a;
+  if (is(a, Op::neg)) return neg(div(nodes_[a].a, b));
+  if (is(b, Op::neg)) return neg(binary(Op::div, a, nodes_[b].a));
+  // A division takes the time of several products; by a constant it is one, at half an ulp.
+  if (auto y = number(b); y && std::isnormal(1.0 / *y)) return mul(constant(1.0 / *y), a);
+  return intern({Op::div, a, b, 0.0});
+}
+
+// sin(u)^2 + cos(u)^2 = 1
+std::optional<NodeId> Graph::pythagoras(NodeId a, NodeId b) {
+  auto squared = [&](NodeId id) -> std::optional<ExpressionNode> {
+    const ExpressionNode& n = nodes_[id];
+    if (n.op != Op::mul || n.a != n.b) return std::nullopt;
+    return nodes_[n.a];
+  };
+  const auto x = squared(a), y = squared(b);
+  if (!x || !y || x->a != y->a) return std::nullopt;
+  if ((x->op == Op::sin && y->op == Op::cos) || (x->op == Op::cos && y->op == Op::sin)) return one_;
+  return std::nullopt;
+}
+
+std::vector<bool> needed(const Graph& graph, std::span<const NodeId> roots) {
+  std::vector<bool> is_needed(graph.size(), false);
+  for (NodeId root : roots) is_needed[root] = true;
+  for (NodeId id = static_cast<NodeId>(graph.size()); id-- > 0;) {
+    const ExpressionNode& n = graph[id];
+    if (!is_needed[id] || n.op == Op::constant || n.op == Op::input) continue;
+    is_needed[n.a] = true;
+    if (is_binary(n.op)) is_needed[n.b] = true;
+  }
+  return is_needed;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace mixloop {
+
+/// A node's place in its graph. Operands come before the node that uses them.
+using NodeId = std::uint32_t;
+
+/// What a node computes. `constant` and `input` are leaves; the rest take one operand (a) or two (a, b).
+enum class Op : std::uint8_t {
+  constant, input,
+  neg, sqrt, sin, cos, exp, log,
+  add, sub, mul, div, atan2,
+};
+
+/// True for the operations of two operands.
+constexpr bool is_binary(Op op) { return op >= Op::add; }
+
+/// Where an input comes from. Whatever depends on parameters alone is computed before the run.
+enum class Block : std::uint8_t { psi, psid, input, time, parameter };
+constexpr std::size_t kBlocks = 5;
+
+/// One operation. For `constant` the number is `value`; for `input`, a is the Block and b the index in it.
+struct ExpressionNode {
+  Op op = Op::constant;
+  NodeId a = 0;
+  NodeId b = 0;
+  double value = 0.0;
+};
+
+/// An angle as an affine sum of nodes: constant + sum of factor * node, nodes ascending.
+struct AffineSum {
+  double constant = 0.0;
+  std::vector<std::pair<NodeId, double>> terms;
+};
+
+/// A graph of expressions in which equal expressions are one node.
+///
+/// Every operation folds constants and propagates zeros and ones; sums and products are put in one order;
+/// keys are exact (the bits of a constant, never a tolerance). Sines and cosines see their angle as an
+/// affine sum: angles that differ by a constant share one pair, and so do sums and differences of angles
+/// that already have theirs.
+class Graph {
+ public:
+  Graph();
+
+  NodeId constant(double value);
+  NodeId input(Block block, std::size_t index);
+  NodeId unary(Op op, NodeId a);
+  NodeId binary(Op op, NodeId a, NodeId b);
+
+  const ExpressionNode& operator[](NodeId id) const { return nodes_[id]; }
+  std::size_t size() const { return nodes_.size(); }
+
+  /// The node's number, if it is a constant.
+  std::optional<double> number(NodeId id) const;
+  bool is_zero(NodeId id) const { return id == zero_; }
+  NodeId zero() const { return zero_; }
+  NodeId one() const { return one_; }
+
+  /// The node as an affine sum of others (of itself, where nothing can be taken apart).
+  const AffineSum& affine(NodeId id);
+
+  /// Sine and cosine of a node, from a shared pair where there is one.
+  std::pair<NodeId, NodeId> sine_cosine(NodeId angle);
+
+  /// How often the pair of an angle was met, and where it came from; for `explain`.
+  struct AngleStatistics {
+    std::size_t asked = 0, own = 0, offset = 0, combined = 0;
+  };
+  const AngleStatistics& angle_statistics() const { return angles_seen_; }
+
+ private:
+  struct KeyHash {
+    std::size_t operator()(const ExpressionNode& n) const;
+  };
+  struct KeyEqual {
+    bool operator()(const ExpressionNode& a, const ExpressionNode& b) const;
+  };
+  struct Angle {
+    AffineSum sum;
+    NodeId sine, cosine;
+  };
+
+  NodeId intern(const ExpressionNode& node);
+  NodeId add(NodeId a, NodeId b);
+  NodeId sub(NodeId a, NodeId b);
+  NodeId mul(NodeId a, NodeId b);
+  NodeId div(NodeId a, NodeId b);
+  NodeId neg(NodeId a);
+  std::optional<NodeId> pythagoras(NodeId a, NodeId b);
+  std::pair<NodeId, NodeId> rotated(NodeId sine, NodeId cosine, double by);
+  std::optional<std::pair<NodeId, NodeId>> from_known(const AffineSum& sum);
+  bool is(NodeId id, Op op) const { return nodes_[id].op == op; }
+
+  std::vector<ExpressionNode> nodes_;
+  std::unordered_map<ExpressionNode, NodeId, KeyHash, KeyEqual> ids_;
+  std::unordered_map<NodeId, AffineSum> affine_;
+  std::unordered_map<NodeId, std::pair<NodeId, NodeId>> pairs_;
+  std::vector<Angle> angles_;
+  AngleStatistics angles_seen_;
+  NodeId zero_ = 0, one_ = 0;
+};
+
+/// The operation on numbers, as every evaluator computes it.
+double apply(Op op, double a, double b = 0.0);
+
+/// For each node, whether one of the roots needs it.
+std::vector<bool> needed(const Graph& graph, std::span<const NodeId> roots);
+
+}  // namespace mixloop

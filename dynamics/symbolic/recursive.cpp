@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/symbolic/tracer.hpp"
+namespace mixloop {
+std::unique_ptr<Tracer> recursive_tracer(std::shared_ptr<const Scene>) { return nullptr; }
+}  // namespace mixloop

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "dynamics/procedure/workspace.hpp"
+#include "dynamics/scene/scene.hpp"
+#include "dynamics/symbolic/expression.hpp"
+
+namespace mixloop {
+
+using ExpressionVector = Vec<Expression>;
+using ExpressionMatrix = Mat<Expression>;
+
+/// A scene's inputs as expressions of the recording graph.
+struct TracedInputs {
+  explicit TracedInputs(const Scene& scene);
+
+  ExpressionVector psi, psid;
+  Expression t;
+  std::vector<Expression> parameters;
+};
+
+/// A way to write down a scene's equations of motion on the expression scalar. Each is exact; they differ
+/// in how many operations they leave. Used while a Recording lives.
+class Tracer {
+ public:
+  virtual ~Tracer() = default;
+
+  virtual ExpressionMatrix mass_matrix() = 0;
+  virtual ExpressionVector bias() = 0;
+  virtual Energy<Expression> energy() = 0;
+  virtual ExpressionVector mass_times(const ExpressionVector& a);
+  virtual ExpressionVector inverse_dynamics(const ExpressionVector& psidd);
+  virtual ExpressionVector forward_dynamics(const ExpressionVector& tau);
+  /// M^-1 B, column by column.
+  virtual ExpressionMatrix mass_inverse_times(const ExpressionMatrix& B);
+};
+
+/// Records the procedure as it stands: works for every scene.
+std::unique_ptr<Tracer> literal_tracer(std::shared_ptr<const Scene> scene);
+
+/// Composite bodies and Newton-Euler in link frames, then C: far fewer operations on long chains.
+std::unique_ptr<Tracer> recursive_tracer(std::shared_ptr<const Scene> scene);
+
+/// Kinetic energy and potential as trigonometric polynomials of the independent angles. nullptr where the
+/// scene is none of that kind, or would take more terms than the budget.
+std::unique_ptr<Tracer> harmonic_tracer(std::shared_ptr<const Scene> scene);
+
+/// The end effector's state, recorded from the procedure.
+EndEffectorState<Expression> trace_end_effector(std::shared_ptr<const Scene> scene, const ExpressionVector& psidd);
+
+}  // namespace mixloop
