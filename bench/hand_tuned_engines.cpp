@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The hand-tuned evaluations as engines. Built twice, with and without contraction: see CMakeLists.txt.
+#include <math.h>
+
+#include "bench/engine.hpp"
+#include "bench/hand_tuned.hpp"
+#include "bench/hand_tuned_simd.hpp"
+#include "bench/hand_tuned_sincos.hpp"
+#include "dynamics/program/sincos.hpp"
+
+namespace mixloop::bench {
+namespace {
+
+using namespace hand_tuned;
+
+constexpr Lumped kFolded = lump(kPayload, kGravity);
+
+constexpr auto kLibrarySincos = [](double x, double* sine, double* cosine) { ::sincos(x, sine, cosine); };
+constexpr auto kInlinedSincos = [](double x, double* sine, double* cosine) {
+  Lanes<2> s, c;
+  lane_sincos<2>(Lanes<2>{x, x}, &s, &c);
+  *sine = s[0];
+  *cosine = c[0];
+};
+
+constexpr auto kThreeFromLibrary = [](const double* psi) { return three_pairs(psi, kLibrarySincos); };
+constexpr auto kTwoFromLibrary = [](const double* psi) { return two_pairs(psi, kLibrarySincos); };
+constexpr auto kThreeInlined = [](const double* psi) { return three_pairs(psi, kInlinedSincos); };
+constexpr auto kTwoInlined = [](const double* psi) { return two_pairs(psi, kInlinedSincos); };
+
+template <class Angles>
+Engine folded(std::string name, Angles angles) {
+  Engine engine;
+  engine.name = std::move(name);
+  engine.forward = [angles](const State& state, Triple& psidd) {
+    forward_dynamics(kFolded, angles(state.psi.data()), state.psid.data(), state.tau.data(), psidd.data());
+  };
+  engine.mass = [angles](const State& state, Symmetric& M) {
+    mass_matrix(kFolded, angles(state.psi.data()), M.data());
+  };
+  return engine;
+}
+
+template <class Angles>
+Engine with_payload_parameter(std::string name, Angles angles) {
+  volatile double payload = kPayload;  // unknown to the compiler
+  Engine engine;
+  engine.name = std::move(name);
+  engine.forward = [angles, n = lump(payload, kGravity)](const State& state, Triple& psidd) {
+    forward_dynamics(n, angles(state.psi.data()), state.psid.data(), state.tau.data(), psidd.data());
+  };
+  engine.mass = [angles, n = lump(payload, kGravity)](const State& state, Symmetric& M) {
+    mass_matrix(n, angles(state.psi.data()), M.data());
+  };
+  return engine;
+}
+
+Engine vectors_inside() {
+  Engine engine;
+  engine.name = "vectors inside, one 4-lane sincos";
+  engine.forward = [](const State& state, Triple& psidd) {
+    paired_forward_dynamics(kFolded, state.psi.data(), state.psid.data(), state.tau.data(), psidd.data());
+  };
+  engine.mass = [](const State& state, Symmetric& M) {
+    paired_mass_matrix(kFolded, state.psi.data(), M.data());
+  };
+  return engine;
+}
+
+template <int lanes>
+struct LaneState {
+  Lanes<lanes> psi[3], psid[3], tau[3], psidd[3];
+};
+
+/// The loads and stores between an array of states and lanes belong to the caller's layout and aren't timed.
+template <int lanes>
+Engine in_lanes(std::string name) {
+  using Block = LaneState<lanes>;
+  Engine engine;
+  engine.name = std::move(name);
+  engine.forward_all = [blocks = std::vector<Block>(), known = static_cast<const State*>(nullptr)](
+                           const std::vector<State>& states, std::vector<Triple>& psidd) mutable {
+    if (known != states.data()) {
+      known = states.data();
+      blocks.assign(states.size() / lanes, Block{});
+      for (std::size_t i = 0; i < states.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+          blocks[i / lanes].psi[k][i % lanes] = states[i].psi[k];
+          blocks[i / lanes].psid[k][i % lanes] = states[i].psid[k];
+          blocks[i / lanes].tau[k][i % lanes] = states[i].tau[k];
+        }
+    }
+    for (Block& block : blocks)
+      forward_dynamics(kFolded, three_pairs(block.psi, lane_sincos<lanes>), block.psid, block.tau, block.psidd);
+    if (psidd.empty()) return;  // only timed
+    for (std::size_t i = 0; i < states.size(); ++i)
+      for (int k = 0; k < 3; ++k) psidd[i][k] = blocks[i / lanes].psidd[k][i % lanes];
+  };
+  return engine;
+}
+
+}  // namespace
+
+#ifdef MIXLOOP_FUSED
+void add_hand_tuned_contracted(Engines& engines) {
+  const std::string family = "hand-tuned (fused), ";
+#else
+void add_hand_tuned(Engines& engines) {
+  const std::string family = "hand-tuned, ";
+#endif
+  const auto add = [&](Engine engine) {
+    engine.name = family + engine.name;
+    engines.push_back(std::move(engine));
+  };
+  add(folded("3 C library sincos", kThreeFromLibrary));
+  add(folded("2 C library sincos", kTwoFromLibrary));
+  add(folded("3 inlined sincos", kThreeInlined));
+  add(folded("2 inlined sincos", kTwoInlined));
+  add(with_payload_parameter("3 inlined sincos, payload a parameter", kThreeInlined));
+  add(vectors_inside());
+  add(in_lanes<4>("4 lanes"));
+  add(in_lanes<8>("8 lanes"));
+}
+
+}  // namespace mixloop::bench
