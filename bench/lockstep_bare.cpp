@@ -102,8 +102,9 @@ int main(int argc, char** argv) {
     waitpid(peer, nullptr, 0);
   }
   const auto seconds = [](mixloop::nanoseconds t) { return std::chrono::duration<double>(t).count(); };
-  std::printf(R"({"ticks": %ld, "rate": %.1f, "round_trip_p50": %.9f, "round_trip_p99": %.9f, "round_trip_max": %.9f})"
-              "\n",
-              ticks, static_cast<double>(ticks) / seconds(arrived - start), seconds(round_trip.quantile(0.5)),
-              seconds(round_trip.quantile(0.99)), seconds(round_trip.max()));
+  std::printf(
+      R"({"ticks": %ld, "rate": %.1f, "round_trip_p50": %.9f, "round_trip_p99": %.9f, "round_trip_max": %.9f})"
+      "\n",
+      ticks, static_cast<double>(ticks) / seconds(arrived - start), seconds(round_trip.quantile(0.5)),
+      seconds(round_trip.quantile(0.99)), seconds(round_trip.max()));
 }

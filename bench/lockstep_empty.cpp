@@ -58,9 +58,10 @@ int main(int argc, char** argv) {
 
   const LockstepReport& report = plant.report();
   const auto seconds = [](nanoseconds t) { return std::chrono::duration<double>(t).count(); };
-  std::printf(R"({"ticks": %ld, "rate": %.1f, "round_trip_p50": %.9f, "round_trip_p99": %.9f, "round_trip_max": %.9f, )"
-              R"("resent": %lu})"
-              "\n",
-              ticks, static_cast<double>(ticks) / seconds(report.wall_time), seconds(report.round_trip.quantile(0.5)),
-              seconds(report.round_trip.quantile(0.99)), seconds(report.round_trip.max()), report.resent);
+  std::printf(
+      R"({"ticks": %ld, "rate": %.1f, "round_trip_p50": %.9f, "round_trip_p99": %.9f, "round_trip_max": %.9f, )"
+      R"("resent": %lu})"
+      "\n",
+      ticks, static_cast<double>(ticks) / seconds(report.wall_time), seconds(report.round_trip.quantile(0.5)),
+      seconds(report.round_trip.quantile(0.99)), seconds(report.round_trip.max()), report.resent);
 }

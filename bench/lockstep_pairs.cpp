@@ -33,8 +33,8 @@ std::string output_of(const std::string& command) {
 Figures run(const std::string& command) {
   const std::string text = output_of(command);
   const nlohmann::json j = nlohmann::json::parse(text.substr(text.find('{')));
-  const double rate =
-      j.contains("rate") ? j.at("rate").get<double>() : j.at("ticks").get<double>() / j.at("wall_time").get<double>();
+  const double rate = j.contains("rate") ? j.at("rate").get<double>()
+                                         : j.at("ticks").get<double>() / j.at("wall_time").get<double>();
   return {.rate = rate, .p50 = j.at("round_trip_p50"), .p99 = j.at("round_trip_p99")};
 }
 
@@ -50,23 +50,25 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-void print(const char* what, const std::vector<Figures>& bare, const std::vector<Figures>& ours, double Figures::*f,
-           double unit) {
+void print(const char* what, const std::vector<Figures>& bare, const std::vector<Figures>& ours,
+           double Figures::*f, double unit) {
   std::vector<double> a, b, ratio;
   for (std::size_t i = 0; i < bare.size(); ++i) {
     a.push_back(bare[i].*f);
     b.push_back(ours[i].*f);
     ratio.push_back(b.back() / a.back());
   }
-  std::printf("%-22s %10.1f %10.1f %8.3f   (%.3f to %.3f)\n", what, median(a) * unit, median(b) * unit, median(ratio),
-              *std::min_element(ratio.begin(), ratio.end()), *std::max_element(ratio.begin(), ratio.end()));
+  std::printf("%-22s %10.1f %10.1f %8.3f   (%.3f to %.3f)\n", what, median(a) * unit, median(b) * unit,
+              median(ratio), *std::min_element(ratio.begin(), ratio.end()),
+              *std::max_element(ratio.begin(), ratio.end()));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
   int pairs = 15;
-  std::string bare_command = quoted((std::filesystem::read_symlink("/proc/self/exe").parent_path() / "lockstep_bare"));
+  std::string bare_command =
+      quoted((std::filesystem::read_symlink("/proc/self/exe").parent_path() / "lockstep_bare"));
   std::string command;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];

@@ -26,8 +26,9 @@ void dispatch(const lcm_recv_buf_t* received, const char*, void* user) {
   const auto& subscription = *static_cast<Subscription*>(user);
   // LCM subtracts lengths that a stranger chose: a channel without an end makes a negative size.
   const bool sound = received->data_size <= 65536;
-  subscription.handler(subscription.context,
-                       sound ? Bytes(static_cast<const std::uint8_t*>(received->data), received->data_size) : Bytes());
+  subscription.handler(
+      subscription.context,
+      sound ? Bytes(static_cast<const std::uint8_t*>(received->data), received->data_size) : Bytes());
 }
 
 std::string quoted_as_regex(const std::string& channel) {

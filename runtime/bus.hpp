@@ -53,7 +53,8 @@ class Bus {
   /// As above, for a member function: `bus.subscribe<&Peer::on_state>(channel, this)`.
   template <auto Method, class Object>
   void subscribe(const std::string& channel, Object* object) {
-    subscribe(channel, [](void* context, Bytes bytes) { (static_cast<Object*>(context)->*Method)(bytes); }, object);
+    subscribe(
+        channel, [](void* context, Bytes bytes) { (static_cast<Object*>(context)->*Method)(bytes); }, object);
   }
 
   /// Waits for one message, until `deadline`, with the kernel's nanosecond timeouts. A message that is

@@ -13,8 +13,8 @@
 namespace mixloop {
 namespace {
 
-constexpr std::uint32_t kUdpHeader = 8;  // the program sees the packet from its UDP header on
-constexpr std::uint32_t kLcmHeader = 8;  // magic and sequence number
+constexpr std::uint32_t kUdpHeader = 8;              // the program sees the packet from its UDP header on
+constexpr std::uint32_t kLcmHeader = 8;              // magic and sequence number
 constexpr std::uint32_t kShortMessage = 0x4c433032;  // "LC02"
 constexpr std::uint32_t kKeepAll = 0xffffffff, kDrop = 0;
 
@@ -35,7 +35,8 @@ void append_channel(std::vector<sock_filter>& program, std::string_view name) {
       expected = expected << 8 | (i < name.size() ? static_cast<std::uint8_t>(name[i]) : 0U);
     --left;
     program.push_back(BPF_STMT(load(width), static_cast<std::uint32_t>(kUdpHeader + kLcmHeader + at)));
-    program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, expected, 0, static_cast<std::uint8_t>(2 * left + 1)));
+    program.push_back(
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, expected, 0, static_cast<std::uint8_t>(2 * left + 1)));
     at += width;
   }
   program.push_back(BPF_STMT(BPF_RET | BPF_K, kKeepAll));

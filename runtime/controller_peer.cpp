@@ -9,7 +9,8 @@
 
 namespace mixloop {
 
-ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptions& options, ControllerSide side)
+ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptions& options,
+                               ControllerSide side)
     : bus_(bus),
       options_(options),
       side_(std::move(side)),
@@ -26,13 +27,17 @@ ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptio
 Ending ControllerPeer::run() {
   for (;;) {
     switch (link_.next()) {
-      case PlantLink::Event::over: return link_.ending();
+      case PlantLink::Event::over:
+        return link_.ending();
       case PlantLink::Event::fresh:
         if (link_.first_of_session()) begin_session();
         asked_ = now();
         break;
-      case PlantLink::Event::repeated: repeat(); break;
-      case PlantLink::Event::other: break;
+      case PlantLink::Event::repeated:
+        repeat();
+        break;
+      case PlantLink::Event::other:
+        break;
     }
     require_planner();
     answer_if_ready();
@@ -80,10 +85,12 @@ void ControllerPeer::repeat() {
 void ControllerPeer::require_planner() const {
   if (planner_differs_ && !planner_agreed_)
     throw RunFault("config_mismatch", "the planner on " + reference_channel_ + " was started with another " +
-                                          name_difference(options_.config, planner_config_) + " than this process");
+                                          name_difference(options_.config, planner_config_) +
+                                          " than this process");
   if (answered_ < 0 || link_.latest() <= answered_) return;
   if (now() - asked_ < options_.patience) return;
-  throw RunFault("lost_peer", "no reference for tick " + std::to_string(link_.latest()) + " on " + reference_channel_ +
+  throw RunFault("lost_peer", "no reference for tick " + std::to_string(link_.latest()) + " on " +
+                                  reference_channel_ +
                                   " while the plant goes on asking: the planner is missing");
 }
 

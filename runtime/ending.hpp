@@ -16,10 +16,14 @@ enum class Ending : std::uint8_t {
 
 constexpr std::string_view name(Ending ending) {
   switch (ending) {
-    case Ending::finished: return "finished";
-    case Ending::interrupted: return "interrupted";
-    case Ending::stopped: return "stopped";
-    case Ending::broken_off: break;
+    case Ending::finished:
+      return "finished";
+    case Ending::interrupted:
+      return "interrupted";
+    case Ending::stopped:
+      return "stopped";
+    case Ending::broken_off:
+      break;
   }
   return "broken_off";
 }

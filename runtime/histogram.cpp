@@ -32,7 +32,8 @@ void Histogram::add(std::chrono::nanoseconds duration) {
 
 std::chrono::nanoseconds Histogram::quantile(double p) const {
   if (count_ == 0) return std::chrono::nanoseconds(0);
-  const auto rank = static_cast<std::uint64_t>(std::ceil(std::clamp(p, 0.0, 1.0) * static_cast<double>(count_)));
+  const auto rank =
+      static_cast<std::uint64_t>(std::ceil(std::clamp(p, 0.0, 1.0) * static_cast<double>(count_)));
   std::uint64_t seen = 0;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     seen += counts_[i];

@@ -18,10 +18,14 @@ constexpr auto kEndInterval = std::chrono::milliseconds(1);
 
 std::int8_t end_reason(Ending ending) {
   switch (ending) {
-    case Ending::finished: return sim_control_t::REASON_FINISHED;
-    case Ending::interrupted: return sim_control_t::REASON_INTERRUPTED;
-    case Ending::stopped: return sim_control_t::REASON_STOPPED;
-    case Ending::broken_off: break;
+    case Ending::finished:
+      return sim_control_t::REASON_FINISHED;
+    case Ending::interrupted:
+      return sim_control_t::REASON_INTERRUPTED;
+    case Ending::stopped:
+      return sim_control_t::REASON_STOPPED;
+    case Ending::broken_off:
+      break;
   }
   return sim_control_t::REASON_FAULT;
 }
@@ -32,7 +36,8 @@ std::int64_t plant_time_us(std::int64_t tick, double rate_hz) {
 
 }  // namespace
 
-LockstepPlant::LockstepPlant(Bus& bus, const StopSwitch& stop, const LockstepOptions& options, PlantSide plant)
+LockstepPlant::LockstepPlant(Bus& bus, const StopSwitch& stop, const LockstepOptions& options,
+                             PlantSide plant)
     : bus_(bus),
       stop_(stop),
       options_(options),
@@ -137,10 +142,9 @@ LockstepPlant::Answer LockstepPlant::wait_for_command(std::int64_t tick) {
     if (stop_heard_) return Answer::stopped;
     if (command_heard_) return Answer::command;
     if (mismatch_heard_ && !controller_agrees_)
-      throw RunFault("config_mismatch", "the controller that answers on " + command_channel_ +
-                                            " was started with another " +
-                                            name_difference(options_.config, mismatched_config_) +
-                                            " than this plant");
+      throw RunFault("config_mismatch",
+                     "the controller that answers on " + command_channel_ + " was started with another " +
+                         name_difference(options_.config, mismatched_config_) + " than this plant");
     if (wake == Wake::message) continue;
 
     const nanoseconds silence = now() - began;
@@ -193,13 +197,13 @@ void LockstepPlant::listen_for_planner() {
 
 void LockstepPlant::lost_peer(std::int64_t tick, nanoseconds silence) const {
   const auto seconds = std::chrono::duration<double>(silence).count();
-  const std::string where =
-      "no answer to tick " + std::to_string(tick) + " on " + command_channel_ + " for " +
-      std::to_string(static_cast<long>(std::lround(seconds * 1000))) + " ms";
-  throw RunFault("lost_peer",
-                 where + (planner_heard_ ? "; " + bus_.channel("REFERENCE") + " answers, so the controller is missing"
-                                         : "; " + bus_.channel("REFERENCE") +
-                                               " is silent too, so the planner is missing, or both are"));
+  const std::string where = "no answer to tick " + std::to_string(tick) + " on " + command_channel_ +
+                            " for " + std::to_string(static_cast<long>(std::lround(seconds * 1000))) + " ms";
+  throw RunFault(
+      "lost_peer",
+      where + (planner_heard_ ? "; " + bus_.channel("REFERENCE") + " answers, so the controller is missing"
+                              : "; " + bus_.channel("REFERENCE") +
+                                    " is silent too, so the planner is missing, or both are"));
 }
 
 void LockstepPlant::on_command(Bytes bytes) {

@@ -16,15 +16,15 @@
 namespace mixloop {
 
 struct LockstepOptions {
-  int n = 0;                    ///< motors
-  std::int64_t last_tick = 0;   ///< N: ticks 0 to N are run
-  double rate_hz = 1000;        ///< tick k is plant time k / rate_hz
-  double speed = 0;             ///< plant seconds a real second; 0: as fast as it goes
-  std::int64_t session = 0;     ///< 0: draw one
-  std::int64_t config = 0;      ///< see config_hash.hpp
-  bool truth = false;           ///< publish TRUTH
-  bool hold = false;            ///< go on past the last tick until stopped
-  nanoseconds first_resend = std::chrono::milliseconds(5);    ///< STATE again after this silence, then doubling
+  int n = 0;                   ///< motors
+  std::int64_t last_tick = 0;  ///< N: ticks 0 to N are run
+  double rate_hz = 1000;       ///< tick k is plant time k / rate_hz
+  double speed = 0;            ///< plant seconds a real second; 0: as fast as it goes
+  std::int64_t session = 0;    ///< 0: draw one
+  std::int64_t config = 0;     ///< see config_hash.hpp
+  bool truth = false;          ///< publish TRUTH
+  bool hold = false;           ///< go on past the last tick until stopped
+  nanoseconds first_resend = std::chrono::milliseconds(5);  ///< STATE again after this silence, then doubling
   nanoseconds slowest_resend = std::chrono::milliseconds(100);
   nanoseconds first_wait = std::chrono::seconds(60);  ///< for the command of tick 0
   nanoseconds patience = std::chrono::seconds(10);    ///< for any later one
@@ -48,11 +48,11 @@ struct LockstepReport {
   std::uint64_t resent = 0;           ///< STATEs sent again after tick 0's command, none having come
   std::uint64_t resent_at_start = 0;  ///< the same while waiting for all to be there
   std::uint64_t failed_sends = 0;
-  std::uint64_t joined_late = 0;      ///< commands from a controller that said so
+  std::uint64_t joined_late = 0;  ///< commands from a controller that said so
   Rejects rejects;
-  Histogram round_trip;               ///< first sending of STATE(k) to arrival of COMMAND(k), k > 0
-  nanoseconds wall_time{0};           ///< from COMMAND(0) to the last command
-  nanoseconds slipped{0};             ///< by which a paced run was late in total
+  Histogram round_trip;      ///< first sending of STATE(k) to arrival of COMMAND(k), k > 0
+  nanoseconds wall_time{0};  ///< from COMMAND(0) to the last command
+  nanoseconds slipped{0};    ///< by which a paced run was late in total
 };
 
 /// The plant's side of lockstep: it owns the clock. For every tick it publishes STATE, waits for the COMMAND
@@ -100,9 +100,9 @@ class LockstepPlant {
   Inbox<command_t> inbox_;
   const std::string state_channel_, truth_channel_, control_channel_, command_channel_;
 
-  std::int64_t tick_ = 0;          // whose command is awaited
-  bool command_heard_ = false;     // inbox_.message is that command
-  bool controller_agrees_ = false; // some command had the right config
+  std::int64_t tick_ = 0;           // whose command is awaited
+  bool command_heard_ = false;      // inbox_.message is that command
+  bool controller_agrees_ = false;  // some command had the right config
   bool stop_heard_ = false;
   bool listens_for_planner_ = false;
   bool planner_heard_ = false;

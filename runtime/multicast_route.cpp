@@ -60,7 +60,8 @@ void require_multicast_route(const MulticastGroup& group) {
   close(fd);
   if (reachable) return;
   throw RunFault("no_multicast_route",
-                 "cannot send to " + group.address + ": " + std::strerror(cause) + "; the loopback interface is " +
+                 "cannot send to " + group.address + ": " + std::strerror(cause) +
+                     "; the loopback interface is " +
                      (loopback ? "up, and no route leads to multicast addresses" : "down") +
                      ". As root:\n  ip link set lo up\n  ip route add 224.0.0.0/4 dev lo\n"
                      "or run the same command in a network namespace of its own, without root: "

@@ -43,7 +43,8 @@ void PlannerPeer::publish(std::int64_t tick) {
   side_.refer(tick, message);
   if (!is_finite(message))
     throw RunFault("not_finite", "the plan has no finite reference for tick " + std::to_string(tick));
-  const auto utime = static_cast<std::int64_t>(std::floor(1e6 * static_cast<double>(tick) / options_.rate_hz));
+  const auto utime =
+      static_cast<std::int64_t>(std::floor(1e6 * static_cast<double>(tick) / options_.rate_hz));
   set_header(message, link_.answer_header(tick, utime));
   bus_.publish(reference_channel_, reference_.encode());
 }

@@ -11,10 +11,14 @@ namespace {
 
 Ending ending_of(std::int8_t reason) {
   switch (reason) {
-    case sim_control_t::REASON_FINISHED: return Ending::finished;
-    case sim_control_t::REASON_INTERRUPTED: return Ending::interrupted;
-    case sim_control_t::REASON_STOPPED: return Ending::stopped;
-    default: return Ending::broken_off;
+    case sim_control_t::REASON_FINISHED:
+      return Ending::finished;
+    case sim_control_t::REASON_INTERRUPTED:
+      return Ending::interrupted;
+    case sim_control_t::REASON_STOPPED:
+      return Ending::stopped;
+    default:
+      return Ending::broken_off;
   }
 }
 
@@ -53,8 +57,8 @@ PlantLink::Event PlantLink::next() {
 PlantLink::Event PlantLink::silence() {
   if (latest() >= options_.last_tick && !options_.hold) return Event::over;  // its END got lost
   throw RunFault("lost_peer", "nothing on " + state_channel_ + " for " +
-                                  (session_.heard() ? whole_milliseconds(options_.patience) +
-                                                          " after tick " + std::to_string(latest())
+                                  (session_.heard() ? whole_milliseconds(options_.patience) + " after tick " +
+                                                          std::to_string(latest())
                                                     : whole_milliseconds(options_.first_wait)) +
                                   ": the plant is missing");
 }
@@ -68,12 +72,14 @@ PlantLink::Event PlantLink::judge() {
   // Once the plant has agreed, a stranger's message can't end us.
   if (differs_ && !agreed_)
     throw RunFault("config_mismatch", "the plant on " + state_channel_ + " was started with another " +
-                                          name_difference(options_.config, their_config_) + " than this process");
+                                          name_difference(options_.config, their_config_) +
+                                          " than this process");
   return heard_;
 }
 
 Header PlantLink::answer_header(std::int64_t tick, std::int64_t utime) const {
-  return {.n = options_.n, .utime = utime, .seq = tick, .session = session_.current(), .config = options_.config};
+  return {
+      .n = options_.n, .utime = utime, .seq = tick, .session = session_.current(), .config = options_.config};
 }
 
 std::optional<Reject> PlantLink::check_origin(std::int64_t session, std::int64_t config) const {

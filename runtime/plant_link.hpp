@@ -16,9 +16,9 @@ namespace mixloop {
 
 /// What a controller or planner is told.
 struct PeerOptions {
-  int n = 0;                 ///< motors
-  std::int64_t session = 0;  ///< 0: take the one that is heard
-  std::int64_t config = 0;   ///< see config_hash.hpp
+  int n = 0;                                                          ///< motors
+  std::int64_t session = 0;                                           ///< 0: take the one that is heard
+  std::int64_t config = 0;                                            ///< see config_hash.hpp
   std::int64_t last_tick = std::numeric_limits<std::int64_t>::max();  ///< a plant may fall silent after it
   bool hold = false;                                  ///< ticks past the last one are no mistake
   nanoseconds first_wait = std::chrono::seconds(60);  ///< for the first STATE
@@ -54,7 +54,7 @@ class PlantLink {
   Event next();
 
   const state_t& state() const { return state_; }
-  std::int64_t latest() const { return report.latest; }  ///< tick of state(), -1 before any
+  std::int64_t latest() const { return report.latest; }        ///< tick of state(), -1 before any
   bool first_of_session() const { return first_of_session_; }  ///< state() is the first of its session
   std::int64_t session() const { return session_.current(); }
   Header answer_header(std::int64_t tick, std::int64_t utime) const;

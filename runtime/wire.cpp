@@ -12,14 +12,22 @@ namespace {
 template <class Counters>
 auto& counter(Counters& rejects, Reject cause) {
   switch (cause) {
-    case Reject::length: return rejects.length;
-    case Reject::fingerprint: return rejects.fingerprint;
-    case Reject::dimension: return rejects.dimension;
-    case Reject::not_finite: return rejects.not_finite;
-    case Reject::session: return rejects.session;
-    case Reject::config: return rejects.config;
-    case Reject::tick: return rejects.tick;
-    case Reject::stale: break;
+    case Reject::length:
+      return rejects.length;
+    case Reject::fingerprint:
+      return rejects.fingerprint;
+    case Reject::dimension:
+      return rejects.dimension;
+    case Reject::not_finite:
+      return rejects.not_finite;
+    case Reject::session:
+      return rejects.session;
+    case Reject::config:
+      return rejects.config;
+    case Reject::tick:
+      return rejects.tick;
+    case Reject::stale:
+      break;
   }
   return rejects.stale;
 }
@@ -57,14 +65,22 @@ void resize(std::size_t n, auto&... arrays) { (arrays.assign(n, 0.0), ...); }
 
 std::string_view name(Reject cause) {
   switch (cause) {
-    case Reject::length: return "length";
-    case Reject::fingerprint: return "fingerprint";
-    case Reject::dimension: return "dimension";
-    case Reject::not_finite: return "not_finite";
-    case Reject::session: return "session";
-    case Reject::config: return "config";
-    case Reject::tick: return "tick";
-    case Reject::stale: break;
+    case Reject::length:
+      return "length";
+    case Reject::fingerprint:
+      return "fingerprint";
+    case Reject::dimension:
+      return "dimension";
+    case Reject::not_finite:
+      return "not_finite";
+    case Reject::session:
+      return "session";
+    case Reject::config:
+      return "config";
+    case Reject::tick:
+      return "tick";
+    case Reject::stale:
+      break;
   }
   return "stale";
 }
@@ -126,23 +142,17 @@ stop_t blank(int n) {
   return m;
 }
 
-bool is_finite(const state_t& m) {
-  return all_finite(m.psi_measured, m.psid_measured);
-}
+bool is_finite(const state_t& m) { return all_finite(m.psi_measured, m.psid_measured); }
 bool is_finite(const reference_t& m) {
   return all_finite(m.psi_desired, m.psid_desired, m.psidd_desired, m.position_desired, m.velocity_desired,
                     m.acceleration_desired);
 }
-bool is_finite(const command_t& m) {
-  return all_finite(m.tau_commanded);
-}
+bool is_finite(const command_t& m) { return all_finite(m.tau_commanded); }
 bool is_finite(const truth_t& m) {
   const double scalars[] = {m.kinetic_energy, m.potential_energy, m.work};
   return all_finite(m.psi, m.psid, m.psidd, m.tau_applied, m.position, m.velocity, m.acceleration, scalars);
 }
-bool is_finite(const sim_control_t& m) {
-  return std::isfinite(m.speed);
-}
+bool is_finite(const sim_control_t& m) { return std::isfinite(m.speed); }
 
 template <class Message>
 std::optional<Reject> Inbox<Message>::read(Bytes bytes) {

@@ -92,7 +92,8 @@ bool is_finite(const sim_control_t& message);
 template <class Message>
 class Outbox {
  public:
-  explicit Outbox(int n) : message(blank<Message>(n)), buffer_(static_cast<std::size_t>(message.getEncodedSize())) {}
+  explicit Outbox(int n)
+      : message(blank<Message>(n)), buffer_(static_cast<std::size_t>(message.getEncodedSize())) {}
 
   /// The bytes of `message`, valid until the next call.
   Bytes encode() {
