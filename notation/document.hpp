@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -23,16 +24,26 @@ struct Node {
     Place place;
     NodePtr value;
   };
+  /// A stretch of a scalar's text, from `offset` on, that stands unbroken in the file.
+  struct Piece {
+    std::size_t offset = 0;
+    int line = 0;
+    int column = 0;
+  };
 
   Kind kind = Kind::kEmpty;
   Place place;
   std::string text;            ///< kScalar
+  std::vector<Piece> pieces;   ///< kScalar: where quotes or line breaks part the text from `place`
   std::vector<NodePtr> items;  ///< kSequence
   std::vector<Entry> entries;  ///< kMapping, in the order of the file, keys unique
 };
 
-/// What the node is, for messages: "the text 'abc'", "a list of 3", "a mapping", "nothing".
+/// What the node is, for messages: "'abc'", "a list of 3", "a mapping", "nothing".
 std::string describe(const Node& node);
+
+/// Where the character at `offset` of a scalar's text stands in the file.
+Place place_in(const Node& scalar, std::size_t offset);
 
 /// The scalar's text; throws InputError("wrong_kind") saying that `what` was expected.
 const std::string& text_of(const Node& node, const std::string& what);
@@ -60,15 +71,15 @@ class Mapping {
   std::string what_;
 };
 
-/// Reads one YAML document. Throws InputError, with line and column, for what is no YAML, for an empty
-/// or binary text, a key given twice, nesting past 32 levels, more than 100,000 values once aliases are
-/// followed, or more than 1 MiB of text.
+/// Reads one YAML document. Throws InputError, with line and column (in bytes), for what is no YAML, for a
+/// file that is empty or no text, a key given twice, a control character, nesting past 32 levels, more than
+/// 100,000 values once aliases are followed, or more than 1 MiB.
 NodePtr parse_document(std::string_view text, const std::string& file);
 NodePtr read_document(const std::filesystem::path& path);
 
 /// The document with the entry at `path` (`plant.command_delay`, `controller.kp[0]`) replaced by `value`,
 /// itself YAML; entries that are absent are made. Throws InputError where the path leads through a value
-/// that is no mapping or list, or past a list's end.
+/// that is no mapping or list, past a list's end, or deeper than 32 steps.
 NodePtr override_entry(const NodePtr& document, std::string_view path, std::string_view value);
 
 }  // namespace mixloop

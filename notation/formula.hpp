@@ -13,8 +13,11 @@
 
 namespace mixloop {
 
+struct Node;
+
 /// An arithmetic expression as a person wrote it, e.g. `((1 + 1/r2)/r1 * psi1 - psi2/r2) / r3`.
-/// Nodes stand in postorder, the root last; what is constant is folded; values are in SI.
+/// Nodes stand in postorder, the root last; what is constant is folded; values are in SI. At most 4096
+/// nodes and 256 levels, so that an evaluation may recurse.
 struct Formula {
   enum class Operator {
     kConstant, kSymbol, kAdd, kSubtract, kMultiply, kDivide, kNegate, kPower,
@@ -32,6 +35,7 @@ struct Formula {
   std::vector<Node> nodes;
   Dimension dimension;
   Place place;
+  int height = 1;  ///< levels of the tree
 
   bool is_constant() const { return nodes.size() == 1 && nodes[0].op == Operator::kConstant; }
   bool is_zero() const { return is_constant() && nodes[0].value == 0; }
@@ -64,11 +68,12 @@ class Scope {
 /// neither a unit, a function, nor pi.
 void check_name(const std::string& name, const Place& place);
 
-/// Reads a formula: + - * / ^ with whole powers, parentheses, sin cos tan asin acos atan atan2 sqrt exp
-/// log, pi, numbers with units (`30 cm`, `9.81 m/s^2`, `0.02 kg m^2`) and the scope's names. Throws
-/// InputError with the column: "invalid_formula", "undefined_symbol", "unknown_unit",
-/// "wrong_dimension", "not_finite".
-Formula parse_formula(std::string_view text, const Place& place, const Scope& scope);
+/// Reads a formula from a document's scalar: + - * / ^ with whole powers, parentheses, sin cos tan asin acos
+/// atan atan2 sqrt exp log, pi, numbers with units (`30 cm`, `9.81 m/s^2`, `0.02 kg m^2`) and the scope's
+/// names. Throws InputError: "wrong_kind" (saying that `what` was expected) for no scalar, and with the line
+/// and column of the offence "invalid_formula", "undefined_symbol", "unknown_unit", "wrong_dimension",
+/// "not_finite" (also for a division by a constant zero), "too_large", "too_deep".
+Formula parse_formula(const Node& scalar, const std::string& what, const Scope& scope);
 
 /// Throws InputError("wrong_dimension") unless the formula may stand for `what` of dimension `wanted`.
 void require_dimension(const Formula& formula, const Dimension& wanted, const std::string& what);

@@ -47,7 +47,7 @@ class SceneReader {
 
  private:
   Formula formula(const Node& node, const Dimension& wanted, const std::string& what, const Scope& scope) const {
-    Formula result = parse_formula(text_of(node, what), node.place, scope);
+    Formula result = parse_formula(node, what, scope);
     require_dimension(result, wanted, what);
     return result;
   }
@@ -87,7 +87,7 @@ class SceneReader {
   void read_constants() {
     if (const Node* node = section("constants"))
       define_in_order(*node, "constants", [&](const Node::Entry& entry) {
-        fixed_.define_formula(entry.key, parse_formula(entry.value->text, entry.value->place, fixed_), entry.place);
+        fixed_.define_formula(entry.key, parse_formula(*entry.value, "a formula", fixed_), entry.place);
       });
   }
 
@@ -130,7 +130,7 @@ class SceneReader {
         throw InputError("undefined_symbol", entry.place, "a constraint for '" + entry.key + "', which is no coordinate" + suggestion(entry.key, coordinate_names()));
     define_in_order(*constraints, "coordinates", [&](const Node::Entry& entry) {
       const int index = coordinate_index_.at(entry.key);
-      Formula equation = parse_formula(entry.value->text, entry.value->place, moving_);
+      Formula equation = parse_formula(*entry.value, "a formula", moving_);
       const Dimension dimension = equation.dimension.open ? kPure : equation.dimension;
       if (!dimension.pure() && !dimension.same_powers(kLength))
         throw InputError("wrong_dimension", equation.place, "the coordinate '" + entry.key + "' is " + to_string(dimension) + "; expected an angle or a length");
@@ -294,7 +294,7 @@ class SceneReader {
     const Node* node = section("singularities");
     if (!node) return;
     for (const auto& entry : node->entries)
-      scene_.singularities.push_back({entry.key, parse_formula(text_of(*entry.value, "a formula"), entry.value->place, moving_), entry.place});
+      scene_.singularities.push_back({entry.key, parse_formula(*entry.value, "a formula", moving_), entry.place});
   }
 
   /// A body of mass has principal moments each at most the sum of the other two; Table B-2 of the paper

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <charconv>
+#include <span>
+
+#include "notation/document.hpp"
+#include "notation/utf8.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr std::size_t kMostSteps = 32;
+
+/// One step of a path: a key, or an index into a list.
+struct Step {
+  std::string key;
+  std::size_t index = 0;
+  bool is_index = false;
+};
+
+/// Reads `key`, `.key` and `[index]`, one after the other.
+class PathReader {
+ public:
+  PathReader(std::string_view path, const Place& place) : path_(path), place_(place) {}
+
+  std::vector<Step> steps() {
+    std::vector<Step> steps = {key()};
+    while (at_ < path_.size()) {
+      if (steps.size() == kMostSteps) fail(fmt::format("more than {} steps", kMostSteps));
+      ++at_;  // a dot or a bracket: key() stops at nothing else, and after an index only they may stand
+      steps.push_back(path_[at_ - 1] == '[' ? index() : key());
+    }
+    return steps;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError("invalid_path", place_, message + " in " + in_quotes(path_));
+  }
+
+  Step key() {
+    const std::size_t end = std::min(path_.find_first_of(".[", at_), path_.size());
+    if (end == at_) fail("an empty name");
+    Step step{std::string(path_.substr(at_, end - at_))};
+    at_ = end;
+    return step;
+  }
+
+  Step index() {
+    Step step{"", 0, true};
+    const char* const last = path_.data() + path_.size();
+    const auto [end, error] = std::from_chars(path_.data() + at_, last, step.index);
+    if (error != std::errc() || end == last || *end != ']') fail("expected an index such as [0]");
+    at_ = static_cast<std::size_t>(end - path_.data()) + 1;
+    if (at_ < path_.size() && path_[at_] != '.' && path_[at_] != '[') fail("expected '.' or '[' after an index");
+    return step;
+  }
+
+  std::string_view path_;
+  const Place& place_;
+  std::size_t at_ = 0;
+};
+
+/// A copy of `node` along the path, all else shared: an alias's other uses keep their value.
+NodePtr replaced(const NodePtr& node, std::span<const Step> steps, const NodePtr& value, const Place& place) {
+  if (steps.empty()) return value;
+  const Step& step = steps.front();
+  auto copy = node ? std::make_shared<Node>(*node) : std::make_shared<Node>();
+  if (step.is_index) {
+    if (copy->kind != Node::Kind::kSequence || step.index >= copy->items.size())
+      throw InputError("invalid_path", place, fmt::format("no item [{}] there: it is {}", step.index, describe(*copy)));
+    copy->items[step.index] = replaced(copy->items[step.index], steps.subspan(1), value, place);
+    return copy;
+  }
+  if (copy->kind == Node::Kind::kEmpty) copy->kind = Node::Kind::kMapping, copy->place = place;
+  if (copy->kind != Node::Kind::kMapping)
+    throw InputError("invalid_path", place, "no entry " + in_quotes(step.key) + " there: it is " + describe(*copy));
+  for (auto& entry : copy->entries)
+    if (entry.key == step.key) {
+      entry.value = replaced(entry.value, steps.subspan(1), value, place);
+      return copy;
+    }
+  copy->entries.push_back({step.key, place, replaced(nullptr, steps.subspan(1), value, place)});
+  return copy;
+}
+
+}  // namespace
+
+NodePtr override_entry(const NodePtr& document, std::string_view path, std::string_view value) {
+  const bool is_text = !first_non_text(path);
+  const Place place{is_text ? "--set " + std::string(path) : "--set"};
+  if (!is_text) throw InputError("not_text", place, "a path with a control character or invalid UTF-8");
+  const auto steps = PathReader(path, place).steps();
+  return replaced(document, steps, parse_document(value, place.file), place);
+}
+
+}  // namespace mixloop
