@@ -24,13 +24,14 @@ using MatrixX = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 enum class Motion { fixed, revolute, prismatic };
 
 /// One transform of the tree, (A-1): Rz(theta) Tz(s) Tx(a) Rx(alpha) from its parent's frame to its own.
-/// A revolute one adds the coordinate to theta, a prismatic one to s.
+/// A revolute one adds scale * q to theta, a prismatic one to s.
 template <class T>
 struct TreeFrame {
   int parent = -1;  ///< index of an earlier frame, -1 the inertial frame
   T theta{}, s{}, a{}, alpha{};
   Motion motion = Motion::fixed;
   int coordinate = -1;  ///< index into q; several frames may share one
+  T scale{1};
 };
 
 template <class T>
@@ -84,13 +85,13 @@ std::vector<FrameMotion<T>> frame_motions(const Tree<T>& tree, const VectorX<T>&
     Vector3<T> spin = Vector3<T>::Zero(), spin_rate = spin, slide = spin, slide_rate = spin;
     const Vector3<T> z = parent.R.col(2);
     if (frame.motion == Motion::revolute) {
-      theta += q[frame.coordinate];
-      spin = z * qd[frame.coordinate];
-      spin_rate = z * qdd[frame.coordinate];
+      theta += frame.scale * q[frame.coordinate];
+      spin = z * frame.scale * qd[frame.coordinate];
+      spin_rate = z * frame.scale * qdd[frame.coordinate];
     } else if (frame.motion == Motion::prismatic) {
-      s += q[frame.coordinate];
-      slide = z * qd[frame.coordinate];
-      slide_rate = z * qdd[frame.coordinate];
+      s += frame.scale * q[frame.coordinate];
+      slide = z * frame.scale * qd[frame.coordinate];
+      slide_rate = z * frame.scale * qdd[frame.coordinate];
     }
     const Vector3<T> x = parent.R.col(0) * cos(theta) + parent.R.col(1) * sin(theta);
     const Vector3<T> y = z.cross(x);
@@ -140,9 +141,9 @@ VectorX<T> tree_inverse_dynamics(const Tree<T>& tree, const VectorX<T>& q, const
     const FrameMotion<T> parent = frame.parent < 0 ? FrameMotion<T>{} : motions[frame.parent];
     const Vector3<T> z = parent.R.col(2);
     if (frame.motion == Motion::revolute)
-      effort[frame.coordinate] += z.dot(moment[i] - parent.p.cross(force[i]));
+      effort[frame.coordinate] += frame.scale * z.dot(moment[i] - parent.p.cross(force[i]));
     else if (frame.motion == Motion::prismatic)
-      effort[frame.coordinate] += z.dot(force[i]);
+      effort[frame.coordinate] += frame.scale * z.dot(force[i]);
     if (frame.parent >= 0) {
       force[frame.parent] += force[i];
       moment[frame.parent] += moment[i];

@@ -6,6 +6,7 @@
 
 #include "tests/oracles/mixed_loop_robot.hpp"
 #include "tests/oracles/paper_tree.hpp"
+#include "tests/oracles/random_mechanism.hpp"
 #include "tests/oracles/wide.hpp"
 
 namespace mixloop::oracle {
@@ -120,7 +121,7 @@ TEST(Multipliers, TinyTreesGiveWholeNumbers) {
   Tree<double> pendulum;
   pendulum.coordinates = 1;
   pendulum.gravity = {0, -10, 0};
-  pendulum.frames = {{-1, 0, 0, 1, 0, Motion::revolute, 0}};
+  pendulum.frames = {{-1, 0, 0, 1, 0, Motion::revolute, 0, 1}};
   pendulum.bodies = {{0, 2, {0, 0, 0}, Matrix3<double>::Zero()}};
   const VectorX<double> zero = VectorX<double>::Zero(1), one = VectorX<double>::Ones(1);
   EXPECT_DOUBLE_EQ(tree_mass_matrix(pendulum, zero)(0, 0), 2);
@@ -131,7 +132,7 @@ TEST(Multipliers, TinyTreesGiveWholeNumbers) {
   // A gear pair: q = 3 psi turns an inertia of 2 under a motor torque of 36: psi'' = 36 / 18.
   Tree<double> wheel;
   wheel.coordinates = 1;
-  wheel.frames = {{-1, 0, 0, 0, 0, Motion::revolute, 0}};
+  wheel.frames = {{-1, 0, 0, 0, 0, Motion::revolute, 0, 1}};
   Matrix3<double> inertia = Matrix3<double>::Zero();
   inertia(2, 2) = 2;
   wheel.bodies = {{0, 0, {0, 0, 0}, inertia}};
@@ -140,6 +141,34 @@ TEST(Multipliers, TinyTreesGiveWholeNumbers) {
   EXPECT_NEAR(solution.psidd[0], 2, 1e-14);
   EXPECT_NEAR(solution.qdd[0], 6, 1e-14);
   EXPECT_NEAR(solution.multipliers[0], -12, 1e-14);
+}
+
+// Rates by central differences along the motion, in 113 bits: step 1e-9, error 1e-18 and 1e-16.
+TEST(RandomMechanism, ConstraintDerivativesAreThoseOfTheConstraints) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const RandomMechanism mechanism(seed, {.nonlinear = true, .timed = true});
+    const int n = mechanism.n();
+    VectorX<Wide> psi(n), psid(n), psidd(n);
+    for (int i = 0; i < n; ++i) {
+      psi[i] = Wide(i + 1) / 4;
+      psid[i] = Wide(2 - i) / 8;
+      psidd[i] = Wide(3 * i - 2) / 16;
+    }
+    const Wide t = Wide(3) / 8, dt(1e-9);
+    const auto at = [&](const Wide& h) {
+      return mechanism.constraints<Wide>(psi + h * psid + h * h / 2 * psidd, psid + h * psidd, t + h);
+    };
+    const auto before = at(-dt), now = at(Wide(0)), after = at(dt);
+    const VectorX<Wide> qdd = now.C * psidd + now.gamma;
+    EXPECT_LT(distance(now.qd, (after.q - before.q) / (2 * dt)), 1e-15) << "seed " << seed;
+    EXPECT_LT(distance(qdd, (after.qd - before.qd) / (2 * dt)), 1e-15) << "seed " << seed;
+    for (int i = 0; i < n; ++i) {
+      const VectorX<Wide> step = dt * VectorX<Wide>::Unit(n, i);
+      const VectorX<Wide> column = (mechanism.constraints<Wide>(psi + step, psid, t).q -
+                                    mechanism.constraints<Wide>(psi - step, psid, t).q) / (2 * dt);
+      EXPECT_LT(distance(now.C.col(i), column), 1e-15) << "seed " << seed;
+    }
+  }
 }
 
 }  // namespace

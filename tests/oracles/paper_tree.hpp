@@ -17,7 +17,7 @@ Tree<T> paper_tree(T payload = T(5), T gravity = T(981) / 100) {
   tree.coordinates = 6;
   tree.gravity = Vector3<T>(T(0), T(0), -gravity);
   const auto row = [&](int parent, int coordinate, const T& s, const T& a, const T& alpha) {
-    tree.frames.push_back({parent, T(0), s, a, alpha, Motion::revolute, coordinate - 1});
+    tree.frames.push_back({parent, T(0), s, a, alpha, Motion::revolute, coordinate - 1, T(1)});
   };
   row(-1, 1, centi(30), T(0), right_angle);  // 0-1
   row(0, 2, T(0), centi(30), T(0));          // 1-2
