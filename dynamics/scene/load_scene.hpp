@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "dynamics/scene/check_physical.hpp"
 #include "dynamics/scene/scene.hpp"
 #include "notation/document.hpp"
 
@@ -17,9 +18,5 @@ Scene load_scene(const std::filesystem::path& path);
 /// an unknown name, a wrong dimension, or values for which the scene is none (a negative mass, an inertia
 /// that no body can have).
 std::vector<double> parameter_values(const Scene& scene, const NodePtr& overrides, std::vector<double> base);
-
-/// Throws InputError when a mass is negative, an inertia is not positive semidefinite, or a number is not
-/// finite at these parameter values.
-void check_physical(const Scene& scene, const std::vector<double>& parameters);
 
 }  // namespace mixloop

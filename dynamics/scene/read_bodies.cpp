@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What has mass, and what acts on it.
+#include <fmt/format.h>
+
+#include "dynamics/scene/draft.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr std::size_t kMostBodies = 1000;
+constexpr std::size_t kMostLoads = 1000;
+
+void read_inertia(const NodePtr& node, Scene::Body& body, SceneDraft& draft) {
+  static const std::vector<std::string> names = {"xx", "yy", "zz", "xy", "xz", "yz"};
+  const Mapping entry(node, "an inertia", names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const NodePtr element = i < 3 ? entry.at(names[i]) : entry.find(names[i]);
+    if (element) body.inertia[i] = draft.formula(*element, kInertia, "I_" + names[i], draft.fixed);
+  }
+}
+
+}  // namespace
+
+void read_bodies(const Mapping& root, SceneDraft& draft) {
+  for (const auto& item : items_within(root.at("bodies"), 1, kMostBodies, "the bodies")) {
+    Scene::Body body;
+    const Mapping entry(item, "a body", {"name", "frame", "mass", "center_of_mass", "inertia"});
+    body.place = item->place;
+    body.frame = draft.frame(entry);
+    const NodePtr name = entry.find("name");
+    body.name = name ? text_of(*name, "a body's name") : fmt::format("body {}", draft.scene.bodies.size() + 1);
+    body.mass = draft.formula(*entry.at("mass"), kMass, "the mass", draft.fixed);
+    body.center_of_mass = draft.vector(entry.find("center_of_mass"), kLength, "the centre of mass", draft.fixed);
+    body.inertia.fill(constant_formula(0, kInertia, item->place));
+    if (const NodePtr tensor = entry.find("inertia")) read_inertia(tensor, body, draft);
+    draft.scene.bodies.push_back(std::move(body));
+  }
+}
+
+void read_loads(const Mapping& root, SceneDraft& draft) {
+  const NodePtr node = root.find("loads");
+  if (!node || node->kind == Node::Kind::kEmpty) return;
+  Scope timed = draft.fixed;
+  timed.define_symbol("t", Symbols::kTime, kTime, {});
+  for (const auto& item : items_within(node, 0, kMostLoads, "the loads")) {
+    const Mapping entry(item, "a load", {"frame", "point", "force", "moment"});
+    Scene::Load load;
+    load.frame = draft.frame(entry);
+    load.point = draft.vector(entry.find("point"), kLength, "the point", draft.fixed);
+    load.force = draft.vector(entry.find("force"), kForce, "the force", timed);
+    load.moment = draft.vector(entry.find("moment"), kMoment, "the moment", timed);
+    draft.scene.loads.push_back(std::move(load));
+  }
+}
+
+}  // namespace mixloop
