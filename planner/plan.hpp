@@ -2,51 +2,54 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "dynamics/procedure/model.hpp"
+#include "planner/limits.hpp"
 #include "planner/path.hpp"
 #include "planner/reference.hpp"
 
 namespace mixloop {
 
-/// What a path must respect; an empty list is no limit. One value a motor.
-struct PlanLimits {
-  std::vector<double> velocity;  ///< rad/s or m/s
-  std::vector<double> torque;    ///< N m or N, along the path by inverse dynamics
-};
-
-/// The references of a whole experiment, worked out and checked before anything moves.
-/// Reference(k) is a table look-up, so a repeated tick has the same bytes.
+/// The references of a whole experiment, worked out and checked before anything moves: a move of the motors to
+/// the path's start where they don't stand there already, then the path. Reference k is a look-up in a table, so
+/// a repeated tick has the same bytes.
 class Plan {
  public:
   struct Settings {
     double rate_hz = 1000;
-    int stages_per_tick = 1;  ///< 2 * substeps for control evaluated at every RK4 stage, else 1
+    int stages_per_tick = 1;        ///< 2 * substeps for control evaluated at every RK4 stage, else 1
     PlanLimits limits;
-    std::vector<double> start_psi;         ///< where the plant stands; empty: at the path's start
-    std::optional<double> approach;        ///< duration of the move to the start, s; empty: as fast as `limits.velocity` allows, at least 1 s
+    std::vector<double> start_psi;  ///< where the motors stand; empty: at the path's start
   };
 
-  /// Throws InputError (code "unreachable", "singular_path", "crosses_branch", "over_limit", "off_grid") saying
-  /// where on the path and why.
+  /// Throws InputError saying where on the path and why: "unreachable", "singular_path", "crosses_branch",
+  /// "over_limit", "off_grid"; "no_inverse" when the scene has not as many motors as end effector axes;
+  /// "too_large" when the table would take more than 1 GB.
+  ///
+  /// The move to the start takes `path.approach`; without one, at least 1 s and as long as `limits.velocity`
+  /// asks for, or, without limits, so long that no motor turns faster than on the path.
   Plan(const Model<double>& model, const Path& path, const Settings& settings);
 
+  int n() const { return n_; }
   std::int64_t ticks() const { return ticks_; }            ///< N: the last tick
-  std::int64_t start_tick() const { return start_tick_; }  ///< where the path begins, after a move to the start
+  std::int64_t start_tick() const { return start_tick_; }  ///< where the path begins, after the move to its start
 
-  /// At tick k, clamped to [0, N]: past the end the end point is held.
-  const Reference& at(std::int64_t k) const;
+  /// At tick k: time k / rate. Before 0 as at 0; past N the last position with rates of zero.
+  /// Valid while the plan lives.
+  Reference at(std::int64_t k) const { return at_stage(k, 0); }
   /// At stage j of tick k, 0 <= j < stages_per_tick: time (k + j / stages_per_tick) / rate.
-  const Reference& at_stage(std::int64_t k, int j) const;
+  Reference at_stage(std::int64_t k, int j) const;
 
  private:
-  std::int64_t ticks_ = 0;
-  std::int64_t start_tick_ = 0;
+  friend class PlanMaker;
+  std::span<const double> row_of(std::int64_t step) const;
+
+  int n_ = 0;
   int stages_ = 1;
-  std::vector<Reference> table_;
+  std::int64_t ticks_ = 0, start_tick_ = 0;
+  std::int64_t lap_steps_ = 0;    ///< of the path's rows in the table: a path that repeats has one lap there
+  std::vector<double> table_;     ///< rows of the move to the start, of a lap, of the end, and of rest past it
 };
 
 }  // namespace mixloop

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "planner/follower.hpp"
+
+namespace mixloop {
+
+IkOutcome Follower::start(const InverseKinematics::Accepts& accepts) {
+  const PathPoint desired = itinerary_.at(0);
+  const IkOutcome outcome = ik_.position_from_home(desired.position, time(0), now_.psi, accepts);
+  return outcome == IkOutcome::kSolved ? complete(0, desired, now_.psi) : outcome;
+}
+
+IkOutcome Follower::complete(double step, const PathPoint& desired, Vector psi) {
+  Motion next{step, desired, std::move(psi), {}, {}};
+  const IkOutcome outcome = ik_.rates(desired, time(step), next.psi, next.psid, next.psidd);
+  if (outcome == IkOutcome::kSolved) now_ = std::move(next);
+  return outcome;
+}
+
+IkOutcome Follower::advance(double step) { return try_advance(step, ik_.arm() ? 0 : 12); }
+
+// A solution far from where the motion in hand leads may lie on another branch: go there in smaller steps.
+IkOutcome Follower::try_advance(double step, int halvings) {
+  const PathPoint desired = itinerary_.at(step);
+  const double dt = time(step) - time(now_.step);
+  Vector psi = now_.psi;
+  if (!ik_.arm()) psi += dt * now_.psid + dt * dt / 2 * now_.psidd;
+  const Vector expected = psi;
+  const IkOutcome outcome = ik_.position(desired.position, time(step), psi);
+  const auto size = [&](const Vector& move) { return move.cwiseQuotient(ik_.motor_scale()).norm(); };
+  const bool far = outcome != IkOutcome::kSolved || size(psi - expected) > 0.5 * size(expected - now_.psi) + 1e-3;
+  if (far && halvings > 0) {
+    const IkOutcome half = try_advance((now_.step + step) / 2, halvings - 1);
+    return half == IkOutcome::kSolved ? try_advance(step, halvings - 1) : half;
+  }
+  if (outcome != IkOutcome::kSolved) return outcome;
+  return ik_.arm() || !far ? complete(step, desired, psi) : IkOutcome::kSingular;
+}
+
+double Follower::limit(double failed) {
+  double reached = now_.step;
+  while (reached < failed) {
+    const double middle = (reached + failed) / 2;
+    if (middle <= reached || middle >= failed) break;
+    (advance(middle) == IkOutcome::kSolved ? reached : failed) = middle;
+  }
+  return failed;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "planner/inverse_kinematics.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace mixloop {
+namespace {
+
+constexpr int kMostIterations = 100;
+constexpr int kStartsFromHome = 40;
+
+/// Of the transforms from the ground to the end effector, and the point in its frame.
+double length_of_chain(const Model<double>& model) {
+  double length = model.end_effector_point.norm();
+  for (int frame = model.scene->end_effector.frame; frame != 0;) {
+    const auto& link = model.links[static_cast<std::size_t>(frame - 1)];
+    length += std::abs(link.a) + std::abs(link.s);
+    frame = link.parent;
+  }
+  return length > 0 ? length : 1;
+}
+
+/// Marquardt's step (J^T J + damping diag(J^T J)) x = J^T error (SIAM J. 11, 1963); undamped, Newton's.
+Eigen::Vector3d damped_step(const Eigen::Matrix3d& J, const Eigen::Vector3d& error, double damping) {
+  if (damping == 0) return J.partialPivLu().solve(error);
+  Eigen::Matrix3d A = J.transpose() * J;
+  const double least = 1e-12 * A.diagonal().maxCoeff();
+  for (int i = 0; i < 3; ++i) A(i, i) += damping * std::max(A(i, i), least);
+  return A.partialPivLu().solve(J.transpose() * error);
+}
+
+/// The angle that differs from `angle` by whole turns and is nearest to `other`.
+double unwrapped(double angle, double other) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return angle + turn * std::round((other - angle) / turn);
+}
+
+}  // namespace
+
+InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
+    : model_(model), ws_(model), home_(Eigen::Map<const Vector>(model.scene->home.data(), model.n())), zero_(Vector::Zero(model.n())), scale_(length_of_chain(model)) {
+  const std::size_t axes = model.scene->end_effector.axes.size();
+  if (axes != static_cast<std::size_t>(model.n()))
+    throw InputError("no_inverse", {}, fmt::format("the scene '{}' has {} motors for {} axes of its end effector; a path needs as many motors as axes", model.scene->name, model.n(), axes));
+  if (method == Method::kClosedFormIfKnown) arm_ = find_three_axis_arm(model);
+  const Eigen::Matrix3d J = jacobian_of(forward(home_, zero_, zero_, 0));
+  motor_scale_ = Vector::Ones(model.n());
+  for (int i = 0; i < model.n(); ++i)
+    if (const double column = J.col(i).norm(); column > 1e-6 * J.norm()) motor_scale_[i] = scale_ / column;
+}
+
+IkOutcome InverseKinematics::closed_form(const Eigen::Vector3d& point, Vector& psi) const {
+  const ArmReach reach = reach_of(*arm_, point);
+  if (!(reach.beside >= 0 && reach.distance >= arm_->nearest() && reach.distance <= arm_->farthest())) return IkOutcome::kOutOfReach;
+  const auto angles = arm_angles<double>(*arm_, {point[0], point[1], point[2]});
+  const Eigen::Vector3d before = arm_->angles(psi);
+  psi = arm_->motors({unwrapped(angles[0], before[0]), unwrapped(angles[1], before[1]), unwrapped(angles[2], before[2])});
+  return psi.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
+}
+
+// The closed form on Taylor series in time: its rates are exact.
+IkOutcome InverseKinematics::closed_form_rates(const PathPoint& point, Vector& psid, Vector& psidd) const {
+  using Series = Taylor<double>;
+  const auto along = [&](int i) { return Series(point.position[i], point.velocity[i], point.acceleration[i] ); };
+  const auto [base, shoulder, elbow] = arm_angles<Series>(*arm_, {along(0), along(1), along(2)});
+  psid = arm_->B_inverse * Eigen::Vector3d(base.d, shoulder.d, elbow.d);
+  psidd = arm_->B_inverse * Eigen::Vector3d(base.dd, shoulder.dd, elbow.dd);
+  return psid.allFinite() && psidd.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
+}
+
+Eigen::Vector3d InverseKinematics::on_axes(const Eigen::Vector3d& x) const {
+  Eigen::Vector3d values = Eigen::Vector3d::Zero();
+  Eigen::Index i = 0;
+  for (const int axis : model_.scene->end_effector.axes) values[i++] = x[axis];
+  return values;
+}
+
+Eigen::Matrix3d InverseKinematics::jacobian_of(const EndEffectorState<double>& state) const {
+  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+  Eigen::Index i = 0;
+  for (const int axis : model_.scene->end_effector.axes) J.row(i++).head(model_.n()) = state.jacobian.row(axis);
+  return J;
+}
+
+const EndEffectorState<double>& InverseKinematics::forward(const Vector& psi, const Vector& psid, const Vector& psidd, double t) {
+  return end_effector<double>(model_, span_of(psi), span_of(psid), span_of(psidd), t, ws_);
+}
+
+double InverseKinematics::miss(const Eigen::Vector3d& point, double t, const Vector& psi) {
+  return on_axes(point - forward(psi, zero_, zero_, t).position).norm();
+}
+
+IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Vector& psi) {
+  if (arm_) return closed_form(point, psi);
+  double damping = 0;
+  const EndEffectorState<double>* state = &forward(psi, zero_, zero_, t);
+  Eigen::Vector3d error = on_axes(point - state->position);
+  Eigen::Matrix3d J = jacobian_of(*state);
+  for (int i = 0; i < kMostIterations; ++i) {
+    const Eigen::Vector3d step = damped_step(J, error, damping);
+    const Vector trial = psi + step.head(model_.n());
+    const bool sound = step.allFinite() && (J * step).norm() <= scale_;
+    const double distance = error.norm();
+    // What Newton's method still has to go is quadratically small: this step ends it.
+    if (sound && damping == 0 && distance <= 1e-10 * scale_) {
+      psi = trial;
+      return IkOutcome::kSolved;
+    }
+    if (sound) state = &forward(trial, zero_, zero_, t);
+    if (const Eigen::Vector3d left = on_axes(point - state->position); sound && left.norm() < distance) {
+      psi = trial;
+      error = left;
+      J = jacobian_of(*state);
+      damping = damping < 1e-6 ? 0 : damping / 10;
+    } else {
+      damping = damping == 0 ? 1e-6 : damping * 10;
+      if (damping > 1e12) break;
+    }
+  }
+  return error.norm() <= 1e-12 * scale_ ? IkOutcome::kSolved : IkOutcome::kOutOfReach;
+}
+
+IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, double t, Vector& psi, const Accepts& accepts) {
+  psi = home_;
+  if (arm_) return closed_form(point, psi);
+  const double det_home = jacobian_of(forward(home_, zero_, zero_, t)).determinant();
+  bool any = false;
+  double nearest_solution = HUGE_VAL, nearest_miss = HUGE_VAL;
+  for (int attempt = 0; attempt <= kStartsFromHome; ++attempt) {
+    Vector found = home_;
+    // Spread evenly about home (a Kronecker sequence), farther and farther away.
+    for (Eigen::Index i = 0; attempt > 0 && i < found.size(); ++i)
+      found[i] += motor_scale_[i] * attempt / kStartsFromHome * (2 * std::fmod(0.5 + attempt * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0) - 1);
+    const IkOutcome outcome = position(point, t, found);
+    const double missed = miss(point, t, found), away = (found - home_).cwiseQuotient(motor_scale_).norm();
+    if (outcome != IkOutcome::kSolved) {
+      if (nearest_solution == HUGE_VAL && missed < nearest_miss) psi = found;
+      nearest_miss = std::min(nearest_miss, missed);
+      continue;
+    }
+    any = true;
+    const bool same_side = det_home == 0 || det_home * jacobian_of(forward(found, zero_, zero_, t)).determinant() > 0;
+    if (!same_side || (accepts && !accepts(found)) || away >= nearest_solution) continue;
+    nearest_solution = away;
+    psi = found;
+    if (attempt == 0) break;
+  }
+  if (nearest_solution < HUGE_VAL) return IkOutcome::kSolved;
+  return any ? IkOutcome::kOtherBranch : IkOutcome::kOutOfReach;
+}
+
+IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vector& psi, Vector& psid, Vector& psidd) {
+  if (arm_) return closed_form_rates(point, psid, psidd);
+  const EndEffectorState<double>& drift = forward(psi, zero_, zero_, t);
+  const Eigen::PartialPivLU<Eigen::Matrix3d> J(jacobian_of(drift));
+  psid = J.solve(on_axes(point.velocity - drift.velocity)).head(model_.n());
+  if (!psid.allFinite()) return IkOutcome::kSingular;
+  psidd = J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)).head(model_.n());
+  return psidd.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "planner/itinerary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/cycloid.hpp"
+
+namespace mixloop {
+
+std::int64_t steps_of(double seconds, double rate_hz, const Place& place, const std::string& what) {
+  const double steps = seconds * rate_hz, whole = std::round(steps);
+  if (whole > 0x1p53) throw InputError("too_large", place, fmt::format("{} of {} s has more than 2^53 ticks at {} Hz", what, seconds, rate_hz));
+  if (std::abs(steps - whole) > 1e-9 * std::max(whole, 1.0))
+    throw InputError("off_grid", place,
+                     fmt::format("{} is {} s, which is {} ticks at {} Hz; expected a whole number, such as {} s", what, seconds, steps, rate_hz, std::max(whole, 1.0) / rate_hz));
+  return static_cast<std::int64_t>(whole);
+}
+
+Itinerary::Itinerary(const Path& path, double rate_hz, int stages) : axes_(path.axes), step_rate_(rate_hz * stages) {
+  const auto& vias = path.vias;
+  const auto line = [&](std::size_t to) { return stages * steps_of(vias[to].duration, rate_hz, vias[to].place, "the duration"); };
+  const auto rest = [&](std::size_t at) {
+    if (vias[at].dwell > 0) add(stages * steps_of(vias[at].dwell, rate_hz, vias[at].place, "the dwell"), vias[at].point, vias[at].point, vias[at].place);
+  };
+  rest(0);
+  for (std::size_t i = 1; i < vias.size(); ++i) {
+    add(line(i), vias[i - 1].point, vias[i].point, vias[i].place);
+    rest(i);
+  }
+  if (path.repeat == 0) return;
+  laps_ = path.repeat;
+  for (std::size_t i = vias.size() - 1; i > 0; --i) {
+    if (i + 1 < vias.size()) rest(i);
+    add(line(i), vias[i].point, vias[i - 1].point, vias[i].place);
+  }
+}
+
+void Itinerary::add(std::int64_t count, const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Place& place) {
+  if (count > 0) stretches_.push_back({stretches_.empty() ? 0 : lap_steps(), count, from, to, place});
+}
+
+Itinerary::Within Itinerary::within(double step) const {
+  const auto lap = static_cast<double>(lap_steps());
+  const double local = step >= static_cast<double>(steps()) ? lap : std::fmod(step, lap);
+  const auto after = std::upper_bound(stretches_.begin() + 1, stretches_.end(), local,
+                                      [](double at, const Stretch& stretch) { return at < static_cast<double>(stretch.first); });
+  const Stretch& stretch = *(after - 1);
+  return {stretch, (local - static_cast<double>(stretch.first)) / static_cast<double>(stretch.count)};
+}
+
+PathPoint Itinerary::at(double step) const {
+  const auto [stretch, x] = within(step);
+  const double T_T = static_cast<double>(stretch.count) / step_rate_;
+  // The line as a whole is one unit long: both its ends come out exact.
+  const auto [s, sd, sdd] = cycloid(x, 1, T_T);
+  const Eigen::Vector3d along = stretch.to - stretch.from;
+  return {(1 - s) * stretch.from + s * stretch.to, sd * along, sdd * along};
+}
+
+std::string Itinerary::to_text(const Eigen::Vector3d& point) const {
+  std::string text;
+  for (const int axis : axes_) text += fmt::format("{}{:.6g}", text.empty() ? "(" : ", ", point[axis]);
+  return text + ")";
+}
+
+std::string Itinerary::describe(double step) const {
+  const auto [stretch, x] = within(step);
+  std::string lap;
+  if (laps_ > 1) lap = fmt::format(", lap {} of {}", std::min(laps_, 1 + static_cast<std::int64_t>(step) / lap_steps()), laps_);
+  if (stretch.from == stretch.to) return fmt::format("at rest at {} m{}", to_text(stretch.from), lap);
+  return fmt::format("{:.4g} of the line from {} to {} m, at {} m{}", cycloid(x, 1, 1).s, to_text(stretch.from),
+                     to_text(stretch.to), to_text(at(step).position), lap);
+}
+
+const Place& Itinerary::place(double step) const { return within(step).stretch.place; }
+
+}  // namespace mixloop

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "planner/path.hpp"
+
+namespace mixloop {
+
+/// Where the end effector shall be at one instant of a path.
+struct PathPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< m/s
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s^2
+};
+
+/// A duration in whole steps of a grid of `rate_hz`; throws InputError("off_grid") when it is no whole number of
+/// them (to 1e-9 of itself) and "too_large" past 2^53.
+std::int64_t steps_of(double seconds, double rate_hz, const Place& place, const std::string& what);
+
+/// A path laid on a time grid: lines and rests, each a whole number of steps. Place along it is counted in
+/// steps from the path's start, so that step k is reached at exactly k / rate; between steps it is a fraction.
+class Itinerary {
+ public:
+  /// `rate_hz`: the ticks'; `stages`: steps a tick. Durations are whole numbers of ticks.
+  Itinerary(const Path& path, double rate_hz, int stages);
+
+  std::int64_t lap_steps() const { return stretches_.back().first + stretches_.back().count; }
+  std::int64_t steps() const { return laps_ * lap_steps(); }
+  double step_rate() const { return step_rate_; }
+
+  /// 0 <= step <= steps().
+  PathPoint at(double step) const;
+  /// "0.41 of the line from (0.3, 0, 0.8) to (-0.3, 0.4, 0.3) m, at (0.054, 0.164, 0.595) m", for messages.
+  std::string describe(double step) const;
+  /// The place, in its file, of the point that the line of this step leads to.
+  const Place& place(double step) const;
+
+ private:
+  struct Stretch {
+    std::int64_t first = 0, count = 0;  ///< steps
+    Eigen::Vector3d from, to;
+    Place place;
+  };
+  /// A stretch and how far into it, 0 to 1.
+  struct Within {
+    const Stretch& stretch;
+    double x;
+  };
+  Within within(double step) const;
+  void add(std::int64_t count, const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Place& place);
+
+  std::string to_text(const Eigen::Vector3d& point) const;
+
+  std::vector<int> axes_;
+  std::vector<Stretch> stretches_;  ///< of one lap
+  std::int64_t laps_ = 1;
+  double step_rate_ = 0;
+};
+
+}  // namespace mixloop

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/procedure/procedure.hpp"
+#include "planner/reference.hpp"
+
+namespace mixloop {
+
+/// What a path must respect; an empty list is no limit. One value a motor.
+struct PlanLimits {
+  std::vector<double> velocity;  ///< rad/s or m/s
+  std::vector<double> torque;    ///< N m or N, along the path by inverse dynamics of the plan's model
+};
+
+/// The worst excess over a limit.
+struct Excess {
+  std::int64_t step = 0;
+  double ratio = 1;     ///< of the value to its limit
+  std::string message;  ///< "motor psi2 would turn at 120 rad/s; its limit is 100 rad/s"
+};
+
+/// Looks at references one by one and keeps the worst excess.
+class LimitCheck {
+ public:
+  /// Throws InputError("wrong_size") or ("out_of_range") for limits that don't fit the model.
+  LimitCheck(const Model<double>& model, const PlanLimits& limits);
+
+  void look(std::int64_t step, const Reference& reference, double t);
+  const std::optional<Excess>& worst() const { return worst_; }
+
+ private:
+  void compare(std::int64_t step, std::size_t motor, double value, double limit, bool torque);
+
+  const Model<double>& model_;
+  const PlanLimits& limits_;
+  Workspace<double> ws_;
+  std::optional<Excess> worst_;
+};
+
+}  // namespace mixloop

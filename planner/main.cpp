@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// mixloop-planner: publishes the REFERENCE of each tick one tick ahead of the plant.
+#include <fmt/format.h>
+
+#include "runtime/planner_peer.hpp"
+#include "tools/bus_line.hpp"
+#include "tools/peer_end.hpp"
+
+namespace mixloop {
+namespace {
+
+void fill(const Reference& reference, reference_t& message) {
+  const auto copy = [](const auto& from, auto& to) { std::copy(from.begin(), from.end(), std::begin(to)); };
+  copy(reference.psi, message.psi_desired);
+  copy(reference.psid, message.psid_desired);
+  copy(reference.psidd, message.psidd_desired);
+  copy(reference.position, message.position_desired);
+  copy(reference.velocity, message.velocity_desired);
+  copy(reference.acceleration, message.acceleration_desired);
+}
+
+int run(const PeerLine& line) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  const Experiment experiment = line.load();
+  const Plan plan = make_plan(experiment);
+
+  Bus bus(line.bus);
+  PlannerOptions options{peer_options(line, experiment, plan.ticks())};
+  options.rate_hz = experiment.rate_hz;
+  PlannerPeer peer(bus, stop, options, {.refer = [&](std::int64_t k, reference_t& message) {
+                     fill(plan.at(k), message);
+                     message.phase = k < plan.start_tick() ? reference_t::PHASE_MOVE_TO_START : k > plan.ticks() ? reference_t::PHASE_HOLD : reference_t::PHASE_PATH;
+                   }});
+  return ended("mixloop-planner", peer.run(), peer.report(), stop);
+}
+
+}  // namespace
+}  // namespace mixloop
+
+int main(int argc, char** argv) {
+  int status = 0;
+  mixloop::PeerLine line;
+  CLI::App app("mixloop-planner: the references of an experiment's path, on the LCM bus.");
+  mixloop::add_peer_options(app, line);
+  app.footer("Checks the whole path first (reach, singularities, branches, limits) and refuses it with exit status 2 before anything moves.\n"
+             "Leaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
+  app.callback([&] { status = mixloop::run(line); });
+  return mixloop::run_command_line(argc, argv, app, status);
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "planner/plan.hpp"
+
+#include <algorithm>
+
+#include "planner/plan_maker.hpp"
+
+namespace mixloop {
+
+Plan::Plan(const Model<double>& model, const Path& path, const Settings& settings) : n_(model.n()), stages_(settings.stages_per_tick) {
+  PlanMaker(model, path, settings).make(*this);
+}
+
+std::span<const double> Plan::row_of(std::int64_t step) const {
+  const std::int64_t start = start_tick_ * stages_, end = ticks_ * stages_, rows = start + lap_steps_;
+  std::int64_t row = std::max<std::int64_t>(step, 0);
+  if (row >= end)
+    row = row > end ? rows + 1 : rows;
+  else if (row >= rows)
+    row = start + (row - start) % lap_steps_;
+  const std::size_t size = reference_size(n_);
+  return {table_.data() + static_cast<std::size_t>(row) * size, size};
+}
+
+Reference Plan::at_stage(std::int64_t k, int j) const {
+  // Far past the end, k * stages_ would overflow.
+  const std::int64_t tick = std::clamp<std::int64_t>(k, -1, ticks_ + 1);
+  return reference_in(row_of(tick * stages_ + (tick == k ? j : 0)), n_);
+}
+
+}  // namespace mixloop
