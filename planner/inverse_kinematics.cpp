@@ -44,7 +44,7 @@ InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
     : model_(model), ws_(model), home_(Eigen::Map<const Vector>(model.scene->home.data(), model.n())), zero_(Vector::Zero(model.n())), scale_(length_of_chain(model)) {
   const std::size_t axes = model.scene->end_effector.axes.size();
   if (axes != static_cast<std::size_t>(model.n()))
-    throw InputError("no_inverse", {}, fmt::format("the scene '{}' has {} motors for {} axes of its end effector; a path needs as many motors as axes", model.scene->name, model.n(), axes));
+    throw InputError("no_inverse", {model.scene->transforms.front().place.file}, fmt::format("the scene '{}' has {} motors for {} axes of its end effector; a path needs as many motors as axes", model.scene->name, model.n(), axes));
   if (method == Method::kClosedFormIfKnown) arm_ = find_three_axis_arm(model);
   const Eigen::Matrix3d J = jacobian_of(forward(home_, zero_, zero_, 0));
   motor_scale_ = Vector::Ones(model.n());

@@ -10,20 +10,30 @@
 
 namespace mixloop {
 
-std::int64_t steps_of(double seconds, double rate_hz, const Place& place, const std::string& what) {
-  const double steps = seconds * rate_hz, whole = std::round(steps);
-  if (whole > 0x1p53) throw InputError("too_large", place, fmt::format("{} of {} s has more than 2^53 ticks at {} Hz", what, seconds, rate_hz));
-  if (std::abs(steps - whole) > 1e-9 * std::max(whole, 1.0))
-    throw InputError("off_grid", place,
-                     fmt::format("{} is {} s, which is {} ticks at {} Hz; expected a whole number, such as {} s", what, seconds, steps, rate_hz, std::max(whole, 1.0) / rate_hz));
+namespace {
+
+// Laps of that many steps, a million times, can still be counted in a double.
+constexpr std::int64_t kMostSteps = std::int64_t{1} << 30;
+
+[[noreturn]] void refuse_length(const Place& place, const std::string& what) {
+  throw InputError("too_large", place, what + " has more than 2^30 steps of time");
+}
+
+}  // namespace
+
+std::int64_t ticks_of(double seconds, double rate_hz, const Place& place, const std::string& what) {
+  const double ticks = seconds * rate_hz, whole = std::round(ticks);
+  if (!(whole <= static_cast<double>(kMostSteps))) refuse_length(place, what);
+  if (std::abs(ticks - whole) > 1e-9 * whole)
+    throw InputError("off_grid", place, fmt::format("{} is {} s, which is {} ticks at {} Hz; expected a whole number, such as {} s", what, seconds, ticks, rate_hz, std::max(whole, 1.0) / rate_hz));
   return static_cast<std::int64_t>(whole);
 }
 
 Itinerary::Itinerary(const Path& path, double rate_hz, int stages) : axes_(path.axes), step_rate_(rate_hz * stages) {
   const auto& vias = path.vias;
-  const auto line = [&](std::size_t to) { return stages * steps_of(vias[to].duration, rate_hz, vias[to].place, "the duration"); };
+  const auto line = [&](std::size_t to) { return stages * ticks_of(vias[to].duration, rate_hz, vias[to].place, "the duration"); };
   const auto rest = [&](std::size_t at) {
-    if (vias[at].dwell > 0) add(stages * steps_of(vias[at].dwell, rate_hz, vias[at].place, "the dwell"), vias[at].point, vias[at].point, vias[at].place);
+    if (vias[at].dwell > 0) add(stages * ticks_of(vias[at].dwell, rate_hz, vias[at].place, "the dwell"), vias[at].point, vias[at].point, vias[at].place);
   };
   rest(0);
   for (std::size_t i = 1; i < vias.size(); ++i) {
@@ -39,7 +49,9 @@ Itinerary::Itinerary(const Path& path, double rate_hz, int stages) : axes_(path.
 }
 
 void Itinerary::add(std::int64_t count, const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Place& place) {
-  if (count > 0) stretches_.push_back({stretches_.empty() ? 0 : lap_steps(), count, from, to, place});
+  const std::int64_t first = stretches_.empty() ? 0 : lap_steps();
+  if (first + count > kMostSteps) refuse_length(place, "the path");
+  stretches_.push_back({first, count, from, to, place});
 }
 
 Itinerary::Within Itinerary::within(double step) const {

@@ -16,15 +16,15 @@ struct PathPoint {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s^2
 };
 
-/// A duration in whole steps of a grid of `rate_hz`; throws InputError("off_grid") when it is no whole number of
-/// them (to 1e-9 of itself) and "too_large" past 2^53.
-std::int64_t steps_of(double seconds, double rate_hz, const Place& place, const std::string& what);
+/// A duration in ticks; throws InputError("off_grid") when it is no whole number of them (to 1e-9 of itself),
+/// "too_large" when it is more than 2^30.
+std::int64_t ticks_of(double seconds, double rate_hz, const Place& place, const std::string& what);
 
 /// A path laid on a time grid: lines and rests, each a whole number of steps. Place along it is counted in
 /// steps from the path's start, so that step k is reached at exactly k / rate; between steps it is a fraction.
 class Itinerary {
  public:
-  /// `rate_hz`: the ticks'; `stages`: steps a tick. Durations are whole numbers of ticks.
+  /// `rate_hz`: the ticks'; `stages`: steps a tick. Throws as ticks_of does, also for a lap of more than 2^30 steps.
   Itinerary(const Path& path, double rate_hz, int stages);
 
   std::int64_t lap_steps() const { return stretches_.back().first + stretches_.back().count; }

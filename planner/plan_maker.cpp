@@ -9,17 +9,18 @@
 namespace mixloop {
 namespace {
 
-constexpr std::size_t kMostNumbers = std::size_t{1} << 27;  // 1 GB
+constexpr double kMostNumbers = 0x1p27;  // of a table: 1 GB
 
-bool depends_on_time(const Scene& scene) {
-  return std::any_of(scene.coordinates.begin(), scene.coordinates.end(), [](const auto& coordinate) {
-    return depends_on(coordinate.constraint, [](int symbol) { return symbol == Symbols::kTime; });
-  });
+bool timed(const Formula& formula) {
+  return depends_on(formula, [](int symbol) { return symbol == Symbols::kTime; });
+}
+
+bool constraints_depend_on_time(const Scene& scene) {
+  return std::any_of(scene.coordinates.begin(), scene.coordinates.end(), [](const auto& coordinate) { return timed(coordinate.constraint); });
 }
 
 bool loads_depend_on_time(const Scene& scene) {
-  const auto timed = [](const Formula& formula) { return depends_on(formula, [](int symbol) { return symbol == Symbols::kTime; }); };
-  return std::any_of(scene.loads.begin(), scene.loads.end(), [&](const auto& load) {
+  return std::any_of(scene.loads.begin(), scene.loads.end(), [](const auto& load) {
     return std::any_of(load.force.begin(), load.force.end(), timed) || std::any_of(load.moment.begin(), load.moment.end(), timed);
   });
 }
@@ -32,30 +33,38 @@ const Plan::Settings& checked(const Plan::Settings& settings, const Model<double
   return settings;
 }
 
-std::string percent(double value) { return fmt::format("{:.2g} of its value at home", value); }
+/// "crosses the singularity 'flat elbow'" or "comes too near to the singularity 'flat elbow' (4.1e-05 of ...)".
+std::string told(const Passage& passage, const std::string& name) {
+  if (passage.crosses) return fmt::format("crosses the singularity {}", name);
+  return fmt::format("passes through the singularity {}, or too near to it ({:.2g} of its measure at home)", name, passage.value);
+}
 
 }  // namespace
 
 PlanMaker::PlanMaker(const Model<double>& model, const Path& path, const Plan::Settings& settings)
     : model_(model), path_(path), settings_(checked(settings, model)), itinerary_(path, settings.rate_hz, settings.stages_per_tick),
-      ik_(model), measures_(model, ik_.motor_scale()), timed_(depends_on_time(*model.scene)) {}
+      ik_(model), measures_(model, ik_.motor_scale()), timed_(constraints_depend_on_time(*model.scene)), timed_loads_(loads_depend_on_time(*model.scene) && !settings.limits.torque.empty()) {}
 
 void PlanMaker::make(Plan& plan) {
   const LimitCheck limits_are_sound(model_, settings_.limits);
   plan.lap_steps_ = timed_ ? itinerary_.steps() : itinerary_.lap_steps();
   plan.ticks_ = itinerary_.steps() / settings_.stages_per_tick;
-  if (static_cast<double>(plan.lap_steps_) * static_cast<double>(reference_size(plan.n_)) > static_cast<double>(kMostNumbers))
-    throw InputError("too_large", path_.place, fmt::format("a path of {} steps; its table would take more than 1 GB", plan.lap_steps_));
+  require_room(plan.lap_steps_);
   follow(plan, 0);
   if (!settings_.start_psi.empty()) {
     const Vector from = Eigen::Map<const Vector>(settings_.start_psi.data(), plan.n_);
     const Vector move = reference_in(plan.table_, plan.n_).psi - from;
     if (const std::int64_t ticks = approach_ticks(plan, move); ticks > 0) {
-      if (timed_) follow(plan, ticks * settings_.stages_per_tick);
+      if (timed_ || timed_loads_) follow(plan, ticks * settings_.stages_per_tick);
       approach(plan, from, ticks);
     }
   }
   rest_past_the_end(plan);
+}
+
+void PlanMaker::require_room(std::int64_t steps) const {
+  if (static_cast<double>(steps) * static_cast<double>(reference_size(model_.n())) > kMostNumbers)
+    throw InputError("too_large", path_.place, fmt::format("{} steps; their table would take more than 1 GB", steps));
 }
 
 void PlanMaker::write(Plan& plan, std::int64_t row, const Follower::Motion& motion, double t) {
@@ -112,7 +121,7 @@ void PlanMaker::check_path(const Plan& plan, std::int64_t delay) {
   if (const auto passage = first_passage(samples_, measures_.count(), measures_at)) refuse(*passage, itinerary_.step_rate());
 
   LimitCheck check(model_, settings_.limits);
-  const std::int64_t last = loads_depend_on_time(*model_.scene) && !settings_.limits.torque.empty() ? itinerary_.steps() : plan.lap_steps_;
+  const std::int64_t last = timed_loads_ ? itinerary_.steps() : plan.lap_steps_;
   for (std::int64_t step = 0; step <= last; ++step) check.look(step, row(step == last ? plan.lap_steps_ : step % plan.lap_steps_), follower.time(static_cast<double>(step)));
   if (const auto& worst = check.worst()) {
     const auto at = static_cast<double>(worst->step);
@@ -122,7 +131,7 @@ void PlanMaker::check_path(const Plan& plan, std::int64_t delay) {
 
 std::int64_t PlanMaker::approach_ticks(const Plan& plan, const Vector& move) const {
   if (move.cwiseAbs().maxCoeff() <= 1e-12 * std::max(1.0, reference_in(plan.table_, plan.n_).psi.cwiseAbs().maxCoeff())) return 0;
-  if (path_.approach) return steps_of(*path_.approach, settings_.rate_hz, path_.place, "the approach");
+  if (path_.approach) return ticks_of(*path_.approach, settings_.rate_hz, path_.place, "the approach");
   const auto& motors = model_.scene->motors;
   Vector fastest = Vector::Zero(plan.n_);
   for (int i = 0; i < plan.n_; ++i) {
@@ -163,6 +172,7 @@ struct Quintic {
 
 void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   const std::int64_t steps = ticks * settings_.stages_per_tick;
+  require_room(plan.lap_steps_ + steps);
   const double rate = itinerary_.step_rate();
   const Quintic move(from, reference_in(plan.table_, plan.n_), static_cast<double>(steps) / rate);
   const auto at = [&](double step) { return move.at(step / static_cast<double>(steps)); };
@@ -190,8 +200,7 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   };
   if (const auto passage = first_passage(samples, named, measures_at))
     throw InputError(passage->crosses ? "crosses_branch" : "singular_path", path_.place,
-                     fmt::format("{:.6g} s into the move to the path's start, which takes {:.6g} s: {} the singularity {} ({}); bring the motors to the path's side of it first", passage->step / rate, move.duration,
-                                 passage->crosses ? "across" : "too near", measures_.name(passage->measure), percent(passage->value)));
+                     fmt::format("{:.6g} s into the move to the path's start, which takes {:.6g} s, it {}", passage->step / rate, move.duration, told(*passage, measures_.name(passage->measure))));
   if (const auto& worst = check.worst())
     throw InputError("over_limit", path_.place,
                      fmt::format("{:.6g} s into the move to the path's start, which takes {:.6g} s, {}; give it a longer 'approach'", static_cast<double>(worst->step) / rate, move.duration, worst->message));
@@ -242,8 +251,13 @@ double PlanMaker::out_of_reach(double step, Vector psi) {
 // Where the way ends, and how far beyond it the path goes.
 void PlanMaker::refuse(IkOutcome outcome, Follower& follower, double step) {
   const double limit = follower.limit(step);
-  const std::string where = fmt::format("{:.6g} s into the path, {}, ", limit / itinerary_.step_rate(), itinerary_.describe(limit));
-  if (outcome == IkOutcome::kSingular) throw InputError("singular_path", itinerary_.place(limit), where + "the way ends in a singular pose");
+  if (outcome == IkOutcome::kSingular) {
+    // Which one: that whose measure is least at the last pose before it.
+    std::vector<double> values(measures_.count());
+    measures_.evaluate(follower.now().psi, follower.time(limit), values.data());
+    const auto least = static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
+    refuse(Passage{limit, least, values[least], false}, itinerary_.step_rate());
+  }
   double worst = step, most = 0;
   const auto end = static_cast<double>(itinerary_.lap_steps());
   for (int i = 0; i <= 256; ++i) {
@@ -254,12 +268,12 @@ void PlanMaker::refuse(IkOutcome outcome, Follower& follower, double step) {
     worst = at;
   }
   throw InputError("unreachable", itinerary_.place(limit),
-                   fmt::format("{}the path leaves the reach; {:.6g} s into it, {}, it is {}", where, worst / itinerary_.step_rate(), itinerary_.describe(worst), reach_text(worst, follower.now().psi)));
+                   fmt::format("{:.6g} s into the path, {}, it leaves what can be reached; {:.6g} s into it, {}, it is {}", limit / itinerary_.step_rate(), itinerary_.describe(limit), worst / itinerary_.step_rate(), itinerary_.describe(worst), reach_text(worst, follower.now().psi)));
 }
 
 void PlanMaker::refuse(const Passage& passage, double rate) {
   throw InputError(passage.crosses ? "crosses_branch" : "singular_path", itinerary_.place(passage.step),
-                   fmt::format("{:.6g} s into the path, {}, it {} the singularity {}: {}", passage.step / rate, itinerary_.describe(passage.step), passage.crosses ? "crosses" : "passes through or too near", measures_.name(passage.measure), percent(passage.value)));
+                   fmt::format("{:.6g} s into the path, {}, it {}", passage.step / rate, itinerary_.describe(passage.step), told(passage, measures_.name(passage.measure))));
 }
 
 }  // namespace mixloop

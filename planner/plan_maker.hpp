@@ -15,6 +15,7 @@ class PlanMaker {
   void make(Plan& plan);
 
  private:
+  void require_room(std::int64_t steps) const;
   void follow(Plan& plan, std::int64_t delay);
   void check_path(const Plan& plan, std::int64_t delay);
   std::int64_t approach_ticks(const Plan& plan, const Vector& move) const;
@@ -35,8 +36,9 @@ class PlanMaker {
   Itinerary itinerary_;
   InverseKinematics ik_;
   SingularityMeasures measures_;
-  bool timed_;                  ///< the constraints depend on time, so no lap is like the other
-  std::vector<double> samples_; ///< measures at each step of the path
+  bool timed_;                   ///< the constraints depend on time: no lap is like the other
+  bool timed_loads_;             ///< there are torque limits, and loads that depend on time
+  std::vector<double> samples_;  ///< measures at each step of the path
 };
 
 }  // namespace mixloop

@@ -26,7 +26,7 @@ double signed_distance_to_singular(const Eigen::Matrix3d& A, int n) {
 }  // namespace
 
 SingularityMeasures::SingularityMeasures(const Model<double>& model, const Vector& motor_scale)
-    : model_(model), ws_(model), zero_(Vector::Zero(model.n())), motor_scale_(motor_scale), scale_(model.scene->singularities.size() + 1, 1.0), buffer_(scale_.size()) {
+    : model_(model), ws_(model), motor_scale_(motor_scale), scale_(model.scene->singularities.size() + 1, 1.0), buffer_(scale_.size()) {
   const Vector home = Eigen::Map<const Vector>(model.scene->home.data(), model.n());
   evaluate_raw(home, 0, scale_.data());
 }
@@ -39,18 +39,28 @@ std::string SingularityMeasures::name(std::size_t measure) const {
 void SingularityMeasures::evaluate_raw(const Vector& psi, double t, double* values) {
   const auto& scene = *model_.scene;
   const Symbols symbols(scene);
-  const auto& state = end_effector<double>(model_, span_of(psi), span_of(zero_), span_of(zero_), t, ws_);
+  coordinates<double>(model_, span_of(psi), t, ws_);
   const auto symbol = [&](int number) -> double {
     if (symbols.is_q(number)) return ws_.q[number - symbols.q0];
     if (symbols.is_psi(number)) return psi[number - symbols.psi0];
     return number == Symbols::kTime ? t : model_.parameters[static_cast<std::size_t>(number - Symbols::kParameter0)];
   };
   for (const auto& singularity : scene.singularities) *values++ = mixloop::evaluate<double>(singularity.measure, symbol);
+  *values = signed_distance_to_singular(scaled_jacobian(), model_.n());
+}
+
+// The rows D C of the scene's axes, in units of the motors' scale; the rest of 3 x 3 is zero.
+Eigen::Matrix3d SingularityMeasures::scaled_jacobian() {
+  frame_variations(model_, ws_);
+  const auto& end_effector = model_.scene->end_effector;
+  const auto& path = model_.path(end_effector.frame);
+  linear_variations<double>(ws_.frames[static_cast<std::size_t>(end_effector.frame)], model_.end_effector_point, ws_.D);
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
-  const auto& axes = scene.end_effector.axes;
-  for (int i = 0; i < model_.n(); ++i)
-    for (int j = 0; j < model_.n(); ++j) J(i, j) = state.jacobian(axes[static_cast<std::size_t>(i)], j) * motor_scale_[j];
-  *values = signed_distance_to_singular(J, model_.n());
+  for (std::size_t k = 0; k < path.size(); ++k)
+    for (int i = 0; i < model_.n(); ++i)
+      for (int j = 0; j < model_.n(); ++j)
+        J(i, j) += ws_.D(end_effector.axes[static_cast<std::size_t>(i)], static_cast<Eigen::Index>(k)) * ws_.C(path[k], j) * motor_scale_[j];
+  return J;
 }
 
 void SingularityMeasures::evaluate(const Vector& psi, double t, double* values) {

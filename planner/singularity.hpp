@@ -32,10 +32,11 @@ class SingularityMeasures {
 
  private:
   void evaluate_raw(const Vector& psi, double t, double* values);
+  Eigen::Matrix3d scaled_jacobian();
 
   const Model<double>& model_;
   Workspace<double> ws_;
-  Vector zero_, motor_scale_;
+  Vector motor_scale_;
   std::vector<double> scale_, buffer_;
 };
 
