@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "bench/engine.hpp"
 #include "bench/robot_tree.hpp"

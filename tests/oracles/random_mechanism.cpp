@@ -148,7 +148,7 @@ std::string RandomMechanism::scene_text() const {
   for (const Load& load : loads_) {
     const std::string strength = " * cos(" + load.tempo.text() + " * t / (1 s))";
     text += "  - {frame: " + name(load.frame) + ", point: " + list(load.point) + ", force: " +
-            list(load.force, strength) + ", moment: " + list(load.moment, strength) + "}\n";
+            list(load.force, " * (1 N)" + strength) + ", moment: " + list(load.moment, " * (1 N m)" + strength) + "}\n";
   }
   text += "gravity: " + list(gravity_) + "\n";
   text += "end_effector: {frame: " + name(static_cast<int>(frames_.size()) - 1) + ", point: [0.25, -0.5, 0.125]}\n";
