@@ -148,7 +148,7 @@ LockstepPlant::Answer LockstepPlant::wait_for_command(std::int64_t tick) {
     if (wake == Wake::message) continue;
 
     const nanoseconds silence = now() - began;
-    if (silence >= longest) lost_peer(tick, silence);
+    if (silence >= longest) lost_peer(tick, longest);
     if (silence >= longest / 2) listen_for_planner();
     bus_.publish(state_channel_, state_.encoded());
     ++resent;
@@ -195,15 +195,14 @@ void LockstepPlant::listen_for_planner() {
   bus_.subscribe<&LockstepPlant::on_reference>(bus_.channel("REFERENCE"), this);
 }
 
-void LockstepPlant::lost_peer(std::int64_t tick, nanoseconds silence) const {
-  const auto seconds = std::chrono::duration<double>(silence).count();
-  const std::string where = "no answer to tick " + std::to_string(tick) + " on " + command_channel_ +
-                            " for " + std::to_string(static_cast<long>(std::lround(seconds * 1000))) + " ms";
-  throw RunFault(
-      "lost_peer",
-      where + (planner_heard_ ? "; " + bus_.channel("REFERENCE") + " answers, so the controller is missing"
-                              : "; " + bus_.channel("REFERENCE") +
-                                    " is silent too, so the planner is missing, or both are"));
+void LockstepPlant::lost_peer(std::int64_t tick, nanoseconds waited) const {
+  const std::string reference_channel = bus_.channel("REFERENCE");
+  throw RunFault("lost_peer",
+                 "no answer to tick " + std::to_string(tick) + " on " + command_channel_ + " for " +
+                     std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(waited).count()) +
+                     " ms; " + reference_channel +
+                     (planner_heard_ ? " answers, so the controller is missing"
+                                     : " is silent too, so the planner is missing, or both are"));
 }
 
 void LockstepPlant::on_command(Bytes bytes) {

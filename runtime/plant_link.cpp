@@ -22,6 +22,8 @@ Ending ending_of(std::int8_t reason) {
   }
 }
 
+bool holds(const state_t& state) { return (state.flags & state_t::FLAG_HOLD) != 0; }
+
 std::string whole_milliseconds(nanoseconds t) {
   return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(t).count()) + " ms";
 }
@@ -55,7 +57,7 @@ PlantLink::Event PlantLink::next() {
 }
 
 PlantLink::Event PlantLink::silence() {
-  if (latest() >= options_.last_tick && !options_.hold) return Event::over;  // its END got lost
+  if (latest() >= options_.last_tick && !holds(state_)) return Event::over;  // its END got lost
   throw RunFault("lost_peer", "nothing on " + state_channel_ + " for " +
                                   (session_.heard() ? whole_milliseconds(options_.patience) + " after tick " +
                                                           std::to_string(latest())
@@ -99,7 +101,7 @@ void PlantLink::on_state(Bytes bytes) {
     differs_ = true;
     return reject(Reject::config);
   }
-  if (heard.seq < 0 || (heard.seq > options_.last_tick && !options_.hold)) return reject(Reject::tick);
+  if (heard.seq < 0 || (heard.seq > options_.last_tick && !holds(heard))) return reject(Reject::tick);
 
   agreed_ = true;
   deadline_ = at + options_.patience;

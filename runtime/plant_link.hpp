@@ -16,11 +16,11 @@ namespace mixloop {
 
 /// What a controller or planner is told.
 struct PeerOptions {
-  int n = 0;                                                          ///< motors
-  std::int64_t session = 0;                                           ///< 0: take the one that is heard
-  std::int64_t config = 0;                                            ///< see config_hash.hpp
-  std::int64_t last_tick = std::numeric_limits<std::int64_t>::max();  ///< a plant may fall silent after it
-  bool hold = false;                                  ///< ticks past the last one are no mistake
+  int n = 0;                 ///< motors
+  std::int64_t session = 0;  ///< 0: take the one that is heard
+  std::int64_t config = 0;   ///< see config_hash.hpp
+  /// Later ticks are rejected, but for a plant that holds; and a plant may fall silent after it.
+  std::int64_t last_tick = std::numeric_limits<std::int64_t>::max();
   nanoseconds first_wait = std::chrono::seconds(60);  ///< for the first STATE
   nanoseconds patience = std::chrono::seconds(10);    ///< for any later one
 };

@@ -243,12 +243,12 @@ TEST_F(Controller, names_a_plant_that_never_came) {
 
 TEST_F(Controller, names_the_planner_when_only_that_is_lost) {
   PeerOptions options = kOptions;
-  options.patience = 50ms;
+  options.patience = 500ms;
   start(options);
   script_.send_state(0);
   script_.send_reference(0);
   expect_command(0, 0);
-  for (int i = 0; i < 20; ++i) {
+  while (peer_->running()) {
     script_.send_state(1);
     std::this_thread::sleep_for(5ms);
   }
@@ -263,6 +263,18 @@ TEST_F(Controller, takes_silence_after_the_last_tick_for_the_end) {
   script_.send_state(0);
   script_.send_reference(0);
   EXPECT_EQ(peer_->ending(), Ending::finished);
+}
+
+TEST_F(Controller, answers_past_the_last_tick_where_the_plant_holds) {
+  PeerOptions options = kOptions;
+  options.session = kScriptSession;
+  options.last_tick = 3;
+  start(options);
+  auto state = ScriptedPeer::message<state_t>(4);
+  state.flags = state_t::FLAG_HOLD;
+  script_.send_reference(4, 4);
+  script_.send("STATE", state);
+  expect_command(4, 4);
 }
 
 TEST_F(Controller, honours_a_stop_from_anyone_even_a_malformed_one) {

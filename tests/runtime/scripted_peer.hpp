@@ -111,6 +111,8 @@ class RunningPeer {
   }
   ~RunningPeer() { stop.turn(); }
 
+  bool running() const { return ending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready; }
+
   /// How run() ended; rethrows what it threw.
   Ending ending() {
     if (ending_.wait_for(kScriptLimit) != std::future_status::ready) {
