@@ -20,32 +20,37 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
       n_(static_cast<std::size_t>(experiment.scene->n())),
       rate_hz_(experiment.rate_hz),
       limit_(experiment.position_error_limit),
-      rows_(static_cast<std::size_t>(plan.ticks() + 1) * 4 * n_),
+      rows_(static_cast<std::size_t>(plan.ticks() + 3) * (4 * n_ + 1)),
       zero_(n_, 0.0),
-      out_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
+      hand_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
   measures_.max_torque = Vector::Zero(experiment.scene->n());
 }
 
-bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid) {
-  if (!all_finite(psi) || !all_finite(psid)) return diverged(k);
-  kinematics_.end_effector(psi, psid, zero_, time(k), out_);
+bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work) {
+  if (!all_finite(psi) || !all_finite(psid) || !std::isfinite(work)) return diverged(k);
+  kinematics_.end_effector(psi, psid, zero_, time(k), hand_);
   const auto& desired = plan_.at(k).position;
   double squared = 0;
-  for (const int axis : axes_) squared += (out_[static_cast<std::size_t>(axis)] - desired[axis]) * (out_[static_cast<std::size_t>(axis)] - desired[axis]);
+  for (const int axis : axes_) {
+    const double error = hand_[static_cast<std::size_t>(axis)] - desired[axis];
+    squared += error * error;
+  }
   error_ = std::sqrt(squared);
   if (!(error_ <= limit_)) return diverged(k);
 
-  double* to = rows_.data() + static_cast<std::size_t>(k) * 4 * n_;
+  double* to = row(k);
   std::copy(psi.begin(), psi.end(), to);
   std::copy(psid.begin(), psid.end(), to + n_);
+  to[4 * n_] = work;
   return true;
 }
 
 bool Recorder::command(std::int64_t k, std::span<const double> tau, std::span<const double> applied) {
   if (!all_finite(tau)) return diverged(k);
-  double* to = rows_.data() + static_cast<std::size_t>(k) * 4 * n_;
+  double* to = row(k);
   std::copy(tau.begin(), tau.end(), to + 2 * n_);
   std::copy(applied.begin(), applied.end(), to + 3 * n_);
+  if (k > plan_.ticks()) return true;
   recorded_ = k + 1;
   measures_.max_torque = measures_.max_torque.cwiseMax(map_of(tau).cwiseAbs());
   if (k < plan_.start_tick()) return true;
@@ -74,7 +79,7 @@ Measures Recorder::measures() const {
   for (std::int64_t k = 0; k < recorded_; ++k) {
     const double t = time(k);
     hash.add(std::span<const double>(&t, 1));
-    for (std::size_t column = 0; column < 3; ++column) hash.add(row(k, column));
+    for (const auto& values : {psi(k), psid(k), commanded(k)}) hash.add(values);
   }
   result.trajectory_sha256 = hash.hex();
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "loop/experiment.hpp"
@@ -14,9 +15,10 @@ class Recorder {
  public:
   Recorder(const Experiment& experiment, const Plan& plan);
 
-  /// Takes the state at tick k. False where the run has diverged: the position error is past its limit or
-  /// something is not finite; then the tick is not recorded.
-  bool state(std::int64_t k, std::span<const double> psi, std::span<const double> psid);
+  /// Takes the state at tick k and the work done until then. False where the run has diverged: the position
+  /// error is past its limit or something is not finite; then the tick is not recorded. Ticks past the plan's
+  /// end (a plant that holds on) are watched, and the last two of them kept.
+  bool state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work);
 
   /// Takes the command of tick k, which completes the tick. False where it is not finite.
   bool command(std::int64_t k, std::span<const double> tau, std::span<const double> applied);
@@ -24,19 +26,23 @@ class Recorder {
   void interrupted();
 
   std::int64_t ticks_recorded() const { return recorded_; }
-  std::span<const double> psi(std::int64_t k) const { return row(k, 0); }
-  std::span<const double> psid(std::int64_t k) const { return row(k, 1); }
-  std::span<const double> commanded(std::int64_t k) const { return row(k, 2); }
-  std::span<const double> applied(std::int64_t k) const { return row(k, 3); }
+  std::span<const double> psi(std::int64_t k) const { return column(k, 0); }
+  std::span<const double> psid(std::int64_t k) const { return column(k, 1); }
+  std::span<const double> commanded(std::int64_t k) const { return column(k, 2); }
+  std::span<const double> applied(std::int64_t k) const { return column(k, 3); }
+  double work(std::int64_t k) const { return row(k)[4 * n_]; }
   double time(std::int64_t k) const { return static_cast<double>(k) / rate_hz_; }
   double position_error() const { return error_; }  ///< at the latest state, m
 
   Measures measures() const;
 
  private:
-  std::span<const double> row(std::int64_t k, std::size_t column) const {
-    return {rows_.data() + (static_cast<std::size_t>(k) * 4 + column) * n_, n_};
+  const double* row(std::int64_t k) const {
+    const std::int64_t slot = k <= plan_.ticks() ? k : plan_.ticks() + 1 + k % 2;
+    return rows_.data() + static_cast<std::size_t>(slot) * (4 * n_ + 1);
   }
+  double* row(std::int64_t k) { return const_cast<double*>(std::as_const(*this).row(k)); }
+  std::span<const double> column(std::int64_t k, std::size_t index) const { return {row(k) + index * n_, n_}; }
   bool diverged(std::int64_t k);
 
   const Plan& plan_;
@@ -44,8 +50,8 @@ class Recorder {
   std::vector<int> axes_;
   std::size_t n_;
   double rate_hz_, limit_;
-  std::vector<double> rows_;  ///< psi, psid, commanded, applied of each tick
-  std::vector<double> zero_, out_;
+  std::vector<double> rows_;  ///< of each tick: psi, psid, commanded, applied (n each), work
+  std::vector<double> zero_, hand_;
   std::int64_t recorded_ = 0;
   double error_ = 0, sum_of_squares_ = 0;
   std::int64_t errors_ = 0;

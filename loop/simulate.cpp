@@ -11,7 +11,7 @@ void simulate(const Experiment& experiment, const Plan& plan, Recorder& recorder
     controller.torque(psi, psid, plan.at_stage(plant.tick(), stage), t, out);
   };
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
-    if (!recorder.state(k, plant.psi(), plant.psid())) return;
+    if (!recorder.state(k, plant.psi(), plant.psid(), plant.work())) return;
     if (!go_on(k)) return recorder.interrupted();
     controller.torque(plant.psi(), plant.psid(), plan.at(k), plant.time(), span_of(tau));
     plant.command(span_of(std::as_const(tau)));

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <iterator>
 
+#include "loop/truth.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -21,15 +23,14 @@ std::string header(std::size_t n) {
   for (const char* kind : {"desired", "actual"})
     for (const char* what : {"position", "velocity", "acceleration"})
       for (const char axis : {'x', 'y', 'z'}) line += fmt::format(",{}_{}_{}", what, axis, kind);
-  return line;
+  return line + ",kinetic_energy,potential_energy,work";
 }
 
 }  // namespace
 
 void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan, const Recorder& recorder) {
   const auto n = static_cast<std::size_t>(experiment.scene->n());
-  Dynamics dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, {Purpose::forward_dynamics, Purpose::end_effector});
-  std::vector<double> psidd(n), actual(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n())));
+  TruthReader truth_of(experiment, recorder);
   std::FILE* out = std::fopen(file.c_str(), "w");
   if (!out) throw RunFault("cannot_write", "cannot write " + file.string());
   fmt::memory_buffer line;
@@ -42,10 +43,11 @@ void write_trajectory(const std::filesystem::path& file, const Experiment& exper
     fmt::format_to(std::back_inserter(line), "{}", recorder.time(k));
     for (const auto& row : {recorder.psi(k), recorder.psid(k), recorder.commanded(k), recorder.applied(k)}) add(row);
     const auto& desired = plan.at(k);
-    for (const auto* vector : {&desired.position, &desired.velocity, &desired.acceleration}) add({vector->data(), 3});
-    dynamics.forward_dynamics(recorder.psi(k), recorder.psid(k), recorder.applied(k), recorder.time(k), psidd);
-    dynamics.end_effector(recorder.psi(k), recorder.psid(k), psidd, recorder.time(k), actual);
-    add(std::span<const double>(actual).first(9));
+    const Truth& truth = truth_of.at(k);
+    for (const double* vector : {desired.position.data(), desired.velocity.data(), desired.acceleration.data(), truth.position.data(),
+                                 truth.velocity.data(), truth.acceleration.data()})
+      add(std::span(vector, 3));
+    add(std::array{truth.kinetic_energy, truth.potential_energy, truth.work});
     line.push_back('\n');
     std::fwrite(line.data(), 1, line.size(), out);
   }

@@ -27,6 +27,10 @@ std::span<const T> span_of(const Vec<T>& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
 template <class T>
+std::span<const T> span_of(const Eigen::Map<const Vec<T>>& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+template <class T>
 std::span<T> span_of(Vec<T>& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "loop/recorder.hpp"
+
+namespace mixloop {
+
+/// Makes the folder (with its parents) where results are to be kept, so that a run does not end in a folder
+/// that cannot be written. Throws RunFault("cannot_write").
+void prepare_folder(const std::filesystem::path& folder);
+
+/// Keeps a run: result.json and trajectory.csv. Throws RunFault("cannot_write").
+void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan, const Recorder& recorder, const nlohmann::json& result);
+
+}  // namespace mixloop

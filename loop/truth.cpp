@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "loop/truth.hpp"
+
+namespace mixloop {
+
+TruthReader::TruthReader(const Experiment& experiment, const Recorder& recorder)
+    : recorder_(recorder),
+      dynamics_(experiment.scene, experiment.plant_parameters, experiment.evaluation, {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy}),
+      hand_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
+  truth_.psidd.resize(static_cast<std::size_t>(experiment.scene->n()));
+}
+
+const Truth& TruthReader::at(std::int64_t k) {
+  const auto psi = recorder_.psi(k), psid = recorder_.psid(k);
+  const double t = recorder_.time(k);
+  dynamics_.forward_dynamics(psi, psid, recorder_.applied(k), t, truth_.psidd);
+  dynamics_.end_effector(psi, psid, truth_.psidd, t, hand_);
+  truth_.position = Eigen::Map<const Eigen::Vector3d>(hand_.data());
+  truth_.velocity = Eigen::Map<const Eigen::Vector3d>(hand_.data() + 3);
+  truth_.acceleration = Eigen::Map<const Eigen::Vector3d>(hand_.data() + 6);
+  double energy[2];
+  dynamics_.energy(psi, psid, t, energy);
+  truth_.kinetic_energy = energy[0];
+  truth_.potential_energy = energy[1];
+  truth_.work = recorder_.work(k);
+  return truth_;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "runtime/bus.hpp"
+#include "runtime/config_hash.hpp"
+#include "tools/command_line.hpp"
+
+namespace mixloop {
+
+/// `--lcm-url`, `--channel-prefix`; the default url is LCM_DEFAULT_URL's, else LCM's own with ttl=0.
+void add_bus_options(CLI::App& command, BusOptions& options);
+
+/// What the three processes take beside the experiment.
+struct PeerLine : CommonOptions {
+  std::string experiment;
+  BusOptions bus;
+  std::int64_t session = 0;
+  double patience = 10;    ///< s
+  double first_wait = 60;  ///< s
+  bool hold = false;
+  Evaluation evaluation = Evaluation::machine_code;
+
+  nanoseconds patience_ns() const { return nanoseconds(static_cast<std::int64_t>(patience * 1e9)); }
+  nanoseconds first_wait_ns() const { return nanoseconds(static_cast<std::int64_t>(first_wait * 1e9)); }
+  /// The experiment as this line overrides it.
+  Experiment load() const;
+};
+void add_peer_options(CLI::App& command, PeerLine& line);
+
+/// What all must have in common, as the messages carry it.
+std::int64_t config_of(const Experiment& experiment);
+
+}  // namespace mixloop

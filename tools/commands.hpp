@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// The commands of `mixloop`, each in the file of its name. `status` receives the exit status.
+namespace mixloop {
+
+void add_simulate_command(CLI::App& app, int& status);
+void add_run_command(CLI::App& app, int& status);
+void add_track_command(CLI::App& app, int& status);
+void add_dynamics_command(CLI::App& app, int& status);
+
+}  // namespace mixloop

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "tools/peer_end.hpp"
+
+#include <fmt/format.h>
+
+#include "loop/result.hpp"
+
+namespace mixloop {
+
+PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick) {
+  return {.n = experiment.scene->n(),
+          .session = line.session,
+          .config = config_of(experiment),
+          .last_tick = last_tick,
+          .hold = line.hold,
+          .first_wait = line.first_wait_ns(),
+          .patience = line.patience_ns()};
+}
+
+int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop) {
+  if (report.joined_late) fmt::print(stderr, "{}: joined late, at a tick past 0\n", program);
+  if (ending != Ending::finished)
+    fmt::print(stderr, "{}: {} after {} ticks ({} answered again, {} messages dropped)\n", program, name(ending), report.answered, report.repeated, report.rejects.total());
+  if (ending == Ending::broken_off) return kHeld;  // the plant's fault, which it reports
+  return stop.turned() ? kInterrupted : kHeld;
+}
+
+}  // namespace mixloop

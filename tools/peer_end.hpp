@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "loop/experiment.hpp"
+#include "runtime/plant_link.hpp"
+#include "tools/bus_line.hpp"
+
+namespace mixloop {
+
+/// What controller and planner tell their peer of the bus.
+PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick);
+
+/// How a controller or planner says that it leaves; its exit status.
+int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop);
+
+}  // namespace mixloop

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "loop/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include "loop/keep.hpp"
+#include "loop/result.hpp"
+#include "runtime/clock.hpp"
+#include "runtime/stop_switch.hpp"
+#include "tools/command_line.hpp"
+#include "tools/commands.hpp"
+#include "tools/progress.hpp"
+#include "tools/simulated.hpp"
+
+namespace mixloop {
+
+nlohmann::json simulated(const Experiment& experiment, const std::string& out, const StopSwitch& stop) {
+  if (!out.empty()) prepare_folder(out);
+  const Plan plan = make_plan(experiment);
+  Recorder recorder(experiment, plan);
+  Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);
+  const Instant start = now();
+  simulate(experiment, plan, recorder, [&](std::int64_t k) {
+    progress.at(k);
+    return !stop.turned();
+  });
+  const double wall_time = std::chrono::duration<double>(now() - start).count();
+  auto result = result_json(experiment, recorder.measures(), "simulate", wall_time);
+  if (!out.empty()) keep(out, experiment, plan, recorder, result);
+  return result;
+}
+
+namespace {
+
+struct Options : CommonOptions {
+  std::string experiment;
+  std::string out;
+  Evaluation evaluation = Evaluation::machine_code;
+};
+
+int run(const Options& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
+  experiment.evaluation = options.evaluation;
+  const auto result = simulated(experiment, options.out, stop);
+  if (options.json)
+    print_json(result);
+  else
+    fmt::print("{}{}", summary(experiment, result), options.out.empty() ? "" : "  kept in " + options.out + "\n");
+  return result.at("exit_status").get<int>();
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("simulate", "the closed loop in one process, as fast as it goes");
+  command->add_option("experiment", options->experiment, "the experiment file")->required()->type_name("EXPERIMENT");
+  add_common_options(*command, *options);
+  command->add_option("--out", options->out, "keep result.json and trajectory.csv in this folder")->type_name("DIR");
+  add_evaluation_option(*command, options->evaluation);
+  command->footer(
+      "Examples:\n"
+      "  mixloop simulate experiments/paper.yaml\n"
+      "  mixloop simulate experiments/paper.yaml --set parameters.payload='3 kg' --set scene.gravity='[0, 0, 0]'\n"
+      "  mixloop simulate experiments/paper_continuous.yaml --json --out results/continuous");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop
