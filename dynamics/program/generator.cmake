@@ -3,10 +3,15 @@
 set(MIXLOOP_GENERATOR_SOURCES
     symbolic/angles.cpp
     symbolic/derivative.cpp
+    symbolic/evaluation_angles.cpp
     symbolic/expression.cpp
     symbolic/graph.cpp
     symbolic/harmonic.cpp
+    symbolic/harmonic_energy.cpp
+    symbolic/harmonic_form.cpp
+    symbolic/harmonic_sum.cpp
     symbolic/literal.cpp
+    symbolic/polynomial.cpp
     symbolic/recursive.cpp
     symbolic/tracer.cpp
     program/program.cpp

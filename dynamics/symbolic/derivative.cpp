@@ -71,8 +71,8 @@ std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId
   Recording recording(graph);
   const std::vector<NodeId> outputs{output};
   const std::vector<bool> is_needed = needed(graph, outputs);
-  std::vector<bool> moves(is_needed.size(), false);
-  for (NodeId input : inputs) moves[input] = true;
+  std::vector<bool> moves(is_needed.size(), false), is_input(is_needed.size(), false);
+  for (NodeId input : inputs) moves[input] = is_input[input] = true;
   for (NodeId id = 0; id < is_needed.size(); ++id) {
     const ExpressionNode n = graph[id];
     if (!is_leaf(n) && (moves[n.a] || (is_binary(n.op) && moves[n.b]))) moves[id] = true;
@@ -81,14 +81,14 @@ std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId
   bar[output] = 1.0;
   for (NodeId id = output + 1; id-- > 0;) {
     const ExpressionNode n = graph[id];
-    if (!is_needed[id] || !moves[id] || is_leaf(n)) continue;
+    if (!is_needed[id] || !moves[id] || is_input[id] || is_leaf(n)) continue;
     if (bar[id].is_number() && bar[id].number() == 0.0) continue;
     const Partials d = partials(graph, id);
     if (moves[n.a]) bar[n.a] += bar[id] * d.a;
     if (is_binary(n.op) && moves[n.b]) bar[n.b] += bar[id] * d.b;
   }
   std::vector<NodeId> result;
-  for (NodeId input : inputs) result.push_back(input < bar.size() ? bar[input].node() : graph.zero());
+  for (NodeId input : inputs) result.push_back(bar[input].node());
   return result;
 }
 

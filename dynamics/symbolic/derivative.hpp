@@ -12,7 +12,8 @@ namespace mixloop {
 std::vector<NodeId> tangents(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs,
                              std::span<const NodeId> seeds);
 
-/// Exact reverse derivatives: result[i] = d output / d inputs[i].
+/// Exact reverse derivatives: result[i] = d output / d inputs[i]. Inputs may be inner nodes: each is varied
+/// alone, whatever it is made of.
 std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId> inputs);
 
 /// The outputs with each inputs[i] replaced by replacements[i].

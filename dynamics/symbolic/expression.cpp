@@ -8,12 +8,14 @@ namespace {
 
 thread_local Graph* recording = nullptr;
 
-Graph& graph() {
+Graph& graph() { return recording_graph(); }
+
+}  // namespace
+
+Graph& recording_graph() {
   if (recording == nullptr) throw std::logic_error("an expression is used while nothing records");
   return *recording;
 }
-
-}  // namespace
 
 Recording::Recording(Graph& graph) : before_(recording) { recording = &graph; }
 Recording::~Recording() { recording = before_; }

@@ -79,6 +79,9 @@ class Recording {
   Graph* before_;
 };
 
+/// The graph that this thread records on; std::logic_error if there is none.
+Graph& recording_graph();
+
 }  // namespace mixloop
 
 namespace Eigen {
