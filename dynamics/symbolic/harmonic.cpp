@@ -93,10 +93,14 @@ class HarmonicTracer final : public Tracer {
   }
 
  private:
-  // A function's value and its derivatives by the evaluation angles, then by the displacements psi.
+  // A function's value, and its derivatives by some angles or displacements with the rates of these.
+  struct Slope {
+    Expression value;
+    Eigen::RowVectorXd rate;  // in the basis
+  };
   struct Function {
     Expression value;
-    std::vector<Expression> slope;
+    std::vector<Slope> slopes;
   };
 
   static ExpressionVector times(const Eigen::MatrixXd& A, const ExpressionVector& x) {
@@ -219,7 +223,8 @@ class HarmonicTracer final : public Tracer {
     return polynomial;
   }
 
-  std::vector<Expression> slopes(const Polynomial& polynomial, const Expression& value) const {
+  // By each evaluation angle and each displacement that the function has.
+  std::vector<Slope> slopes(const Polynomial& polynomial, const Expression& value) const {
     const std::size_t pairs = angles_.angles.size();
     std::vector<Expression> by_variable;
     if (writing_.reverse_gradient && !value.is_number()) {
@@ -229,11 +234,28 @@ class HarmonicTracer final : public Tracer {
     } else {
       for (std::size_t v = 0; v < variables_.size(); ++v) by_variable.push_back(horner(polynomial.derivative(v), variables_));
     }
-    std::vector<Expression> result;
+    std::vector<Slope> result;
+    const auto add = [&](const Expression& slope, std::size_t direction) {
+      if (!slope.is_number() || slope.number() != 0.0) result.push_back({slope, rates_[direction]});
+    };
     for (std::size_t e = 0; e < pairs; ++e)
-      result.push_back(variables_[2 * e] * by_variable[2 * e + 1] - variables_[2 * e + 1] * by_variable[2 * e]);
-    for (std::size_t k = 2 * pairs; k < variables_.size(); ++k) result.push_back(by_variable[k]);
+      add(variables_[2 * e] * by_variable[2 * e + 1] - variables_[2 * e + 1] * by_variable[2 * e], e);
+    for (std::size_t k = 2 * pairs; k < variables_.size(); ++k) add(by_variable[k], k - pairs);
     return result;
+  }
+
+  // Of a single harmonic's function: by its own angle, d Re(w e^ix) / dx = Re(i w e^ix).
+  std::vector<Slope> slope_of_harmonic(const WaveSum& waves) const {
+    WaveSum turned_on;
+    for (const auto& [key, w] : waves) turned_on[key] = w * std::complex<long double>(0, 1);
+    return {{horner(polynomial_of(turned_on), variables_), rate_of(waves.begin()->first.angle)}};
+  }
+
+  bool is_single_harmonic(const WaveSum& waves) const {
+    return std::all_of(waves.begin(), waves.end(), [&](const auto& wave) {
+      return wave.first.angle == waves.begin()->first.angle &&
+             std::all_of(wave.first.power.begin(), wave.first.power.begin() + n_, [](int p) { return p == 0; });
+    });
   }
 
   void functions() {
@@ -249,7 +271,7 @@ class HarmonicTracer final : public Tracer {
       Expression constant;
       const Polynomial polynomial = without_constant(polynomial_of(group.f), constant);
       const Expression value = horner(polynomial, variables_);
-      functions_.push_back({value, slopes(polynomial, value)});
+      functions_.push_back({value, is_single_harmonic(group.f) ? slope_of_harmonic(group.f) : slopes(polynomial, value)});
       add_to_mass(group, constant);
     }
     for (std::size_t g = 0; g < form_.groups.size(); ++g) add_to_mass(form_.groups[g], functions_[g].value);
@@ -269,44 +291,51 @@ class HarmonicTracer final : public Tracer {
   ExpressionVector forces() {
     const ExpressionVector y = times(form_.B, in_.psid);
     ExpressionVector h = ExpressionVector::Constant(n_, Expression(0.0));
-    std::vector<Expression> on_angle = potential_.slope;
+    std::vector<Slope> along = potential_.slopes;  // generalised forces along angles and displacements
     for (std::size_t g = 0; g < form_.groups.size(); ++g) {
-      if (writing_.collected && !stands_alone(form_.groups[g]))
+      if (writing_.collected && !stands_alone(form_.groups[g], functions_[g]))
         add_collected(form_.groups[g], functions_[g], y, h);
       else
-        add_kinetic(form_.groups[g], functions_[g], y, on_angle, h);
+        add_kinetic(form_.groups[g], functions_[g], y, along, h);
     }
-    for (std::size_t e = 0; e < rates_.size(); ++e)
-      for (int k = 0; k < n_; ++k) h[k] += Expression(rates_[e][k]) * on_angle[e];
+    for (const Slope& force : along)
+      for (int k = 0; k < n_; ++k) h[k] += Expression(force.rate[k]) * force.value;
     return h;
   }
 
   // A block of one whose own rate turns none of its function's angles: nothing to collect.
-  bool stands_alone(const WaveGroup& group) const {
+  bool stands_alone(const WaveGroup& group, const Function& f) const {
     const auto& block = form_.blocks[group.block];
-    return block.size() == 1 &&
-           std::all_of(rates_.begin(), rates_.end(), [&](const Eigen::RowVectorXd& rate) { return rate[block[0]] == 0.0; });
+    return block.size() == 1 && std::all_of(f.slopes.begin(), f.slopes.end(),
+                                            [&](const Slope& slope) { return slope.rate[block[0]] == 0.0; });
+  }
+
+  static void add_force(std::vector<Slope>& along, const Expression& value, const Eigen::RowVectorXd& rate) {
+    for (Slope& force : along) {
+      if (force.rate != rate) continue;
+      force.value += value;
+      return;
+    }
+    along.push_back({value, rate});
   }
 
   // (A y) (f' . y) - 1/2 (y A y) f'
-  void add_kinetic(const WaveGroup& group, const Function& f, const ExpressionVector& y, std::vector<Expression>& on_angle,
+  void add_kinetic(const WaveGroup& group, const Function& f, const ExpressionVector& y, std::vector<Slope>& along,
                    ExpressionVector& h) const {
     const auto& block = form_.blocks[group.block];
     Expression rate = 0.0;
-    for (std::size_t e = 0; e < rates_.size(); ++e) rate += f.slope[e] * times(rates_[e], y)[0];
+    for (const Slope& slope : f.slopes) rate += slope.value * times(slope.rate, y)[0];
     const ExpressionVector in_block = y(block);
     const ExpressionVector Ay = times(group.A, in_block);
     const Expression half = Expression(0.5) * in_block.dot(Ay);
     for (std::size_t i = 0; i < block.size(); ++i) h[block[i]] += Ay[static_cast<Eigen::Index>(i)] * rate;
-    for (std::size_t e = 0; e < rates_.size(); ++e) on_angle[e] -= half * f.slope[e];
+    for (const Slope& slope : f.slopes) add_force(along, -half * slope.value, slope.rate);
   }
 
   // The same, with the coefficient of every product of two rates summed beforehand.
   void add_collected(const WaveGroup& group, const Function& f, const ExpressionVector& y, ExpressionVector& h) const {
-    for (std::size_t e = 0; e < rates_.size(); ++e) {
-      if (f.slope[e].is_number() && f.slope[e].number() == 0.0) continue;
-      for (int k = 0; k < n_; ++k) h[k] += f.slope[e] * quadratic(christoffel(group, rates_[e], k), y);
-    }
+    for (const Slope& slope : f.slopes)
+      for (int k = 0; k < n_; ++k) h[k] += slope.value * quadratic(christoffel(group, slope.rate, k), y);
   }
 
   // Q with Q(y) = (A y)_k (d . y) - 1/2 d_k y A y
@@ -387,7 +416,7 @@ class WritingSearch {
       now.basis = basis;
       now.phase.assign(found_->angles.angles.size(), 0);
       double cost = cost_of_writing(now);
-      if (cost > 1.2 * least) continue;
+      if (cost > 1.3 * least) continue;
       for (double before = 2 * cost; cost < before;) {
         before = cost;
         cost = improve(now, cost);
@@ -435,7 +464,7 @@ class WritingSearch {
   std::shared_ptr<const HarmonicScene> found_;
 };
 
-constexpr std::size_t kBasesTried = 4;
+constexpr std::size_t kBasesTried = 8;
 
 }  // namespace
 
