@@ -37,8 +37,15 @@ class Plant : public testing::Test {
     c.tau_commanded[0] = tau;
     return c;
   }
+  /// The first STATE of a tick; repeated ones of earlier ticks are passed over.
+  std::optional<state_t> first_state(std::int64_t tick) {
+    std::optional<state_t> s;
+    do s = script_.next<state_t>("STATE");
+    while (s && s->seq < tick);
+    return s;
+  }
   void expect_state(std::int64_t tick) {
-    const auto s = script_.next<state_t>("STATE");
+    const auto s = first_state(tick);
     ASSERT_TRUE(s) << "no state " << tick;
     EXPECT_EQ(s->seq, tick);
     EXPECT_EQ(s->utime, 1000 * tick);
@@ -81,7 +88,7 @@ TEST_F(Plant, repeats_the_state_while_no_command_comes) {
   const auto first = script_.next_bytes("STATE");
   EXPECT_EQ(script_.next_bytes("STATE"), first);
   script_.send("COMMAND", command(0));
-  for (auto s = script_.next<state_t>("STATE"); s && s->seq == 0;) s = script_.next<state_t>("STATE");
+  expect_state(1);
   EXPECT_TRUE(script_.next_bytes("STATE")) << "STATE(1) again";
   script_.send("COMMAND", command(1));
   EXPECT_EQ(plant_->ending(), Ending::finished);
@@ -106,8 +113,7 @@ TEST_F(Plant, takes_only_the_command_that_answers_its_tick) {
   script_.bus.publish(script_.bus.channel("COMMAND"), std::vector<std::uint8_t>(20));
   script_.send("COMMAND", command(0, 1));
   script_.send("COMMAND", command(0, 666));  // doubled
-  while (script_.next<state_t>("STATE").value().seq == 0) {
-  }
+  expect_state(1);
   spoil(1, [](command_t& c) { c.config ^= 1; });  // too late to refuse this controller: it had agreed
   script_.send("COMMAND", command(1, 2));
   EXPECT_EQ(plant_->ending(), Ending::finished);
@@ -139,11 +145,9 @@ TEST_F(Plant, publishes_the_truth_of_every_tick_when_asked) {
   LockstepOptions o = options(1);
   o.truth = true;
   start(o);
+  expect_state(0);
   script_.send("COMMAND", command(0));
-  for (auto s = script_.next<state_t>("STATE"); s && s->seq == 0;) {
-    script_.send("COMMAND", command(0));
-    s = script_.next<state_t>("STATE");
-  }
+  expect_state(1);
   script_.send("COMMAND", command(1));
   for (const std::int64_t tick : {0, 1}) {
     const auto t = script_.next<truth_t>("TRUTH");
@@ -158,8 +162,7 @@ TEST_F(Plant, publishes_nothing_of_the_tick_that_diverges) {
   start(options(9));
   expect_state(0);
   script_.send("COMMAND", command(0));
-  while (script_.next<state_t>("STATE").value().seq == 0) {
-  }
+  expect_state(1);
   script_.send("COMMAND", command(1));
   EXPECT_EQ(plant_->ending(), Ending::broken_off);
   expect_end(sim_control_t::REASON_FAULT, 1);
@@ -212,9 +215,7 @@ TEST_F(Plant, that_holds_goes_on_past_the_last_tick_and_has_finished_when_stoppe
   o.hold = true;
   start(o);
   for (std::int64_t k = 0; k < 3; ++k) {
-    std::optional<state_t> s;
-    do s = script_.next<state_t>("STATE");
-    while (s && s->seq < k);
+    const auto s = first_state(k);
     ASSERT_TRUE(s);
     EXPECT_EQ(s->flags, state_t::FLAG_HOLD);
     script_.send("COMMAND", command(k));
@@ -229,10 +230,7 @@ TEST_F(Plant, keeps_to_the_pace_that_it_is_given) {
   plant_.emplace(o, side());
   Instant first{0}, last{0};
   for (std::int64_t k = 0; k <= 20; ++k) {
-    std::optional<state_t> s;
-    do s = script_.next<state_t>("STATE");
-    while (s && s->seq < k);
-    ASSERT_TRUE(s);
+    ASSERT_TRUE(first_state(k));
     (k == 0 ? first : last) = now();
     script_.send("COMMAND", command(k));
   }
