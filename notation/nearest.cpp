@@ -41,7 +41,8 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
   for (const auto& candidate : candidates) {
     if (candidate.size() > kLongestWord) continue;
     const std::size_t distance = edits(word, candidate);
-    if (distance < fewest) fewest = distance, best = candidate;
+    const bool something_in_common = distance < std::max(word.size(), candidate.size());
+    if (distance < fewest && something_in_common) fewest = distance, best = candidate;
   }
   return best;
 }

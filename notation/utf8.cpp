@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "notation/utf8.hpp"
 
+#include <algorithm>
+
 namespace mixloop {
 namespace {
 
@@ -41,10 +43,11 @@ std::optional<std::size_t> first_non_text(std::string_view bytes) {
 }
 
 std::string in_quotes(std::string_view text, std::size_t most) {
-  if (text.size() <= most) return "'" + std::string(text) + "'";
-  std::size_t end = most;
-  while (end > 0 && continues(text, end)) --end;
-  return "'" + std::string(text.substr(0, end)) + "...'";
+  std::size_t end = std::min(text.size(), most);
+  while (end > 0 && end < text.size() && continues(text, end)) --end;
+  std::string shown(text.substr(0, end));
+  std::replace_if(shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return "'" + shown + (end < text.size() ? "...'" : "'");
 }
 
 }  // namespace mixloop

@@ -12,7 +12,7 @@ namespace mixloop {
 /// tab, line feed and carriage return. Nothing when all of it is text, so messages and JSON may quote it.
 std::optional<std::size_t> first_non_text(std::string_view bytes);
 
-/// `text` in single quotes, cut (between characters) to at most `most` bytes and "...".
+/// `text` in single quotes, on one line, cut (between characters) to at most `most` bytes and "...".
 std::string in_quotes(std::string_view text, std::size_t most = 60);
 
 }  // namespace mixloop
