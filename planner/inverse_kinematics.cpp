@@ -10,7 +10,8 @@ namespace mixloop {
 namespace {
 
 constexpr int kMostIterations = 100;
-constexpr int kStartsFromHome = 40;
+constexpr int kStartsFromHome = 400;
+constexpr double kFarthestStart = 4;  // in motor scales: about a half turn of a joint and more
 
 /// Of the transforms from the ground to the end effector, and the point in its frame.
 double length_of_chain(const Model<double>& model) {
@@ -21,6 +22,13 @@ double length_of_chain(const Model<double>& model) {
     frame = link.parent;
   }
   return length > 0 ? length : 1;
+}
+
+/// The first n of three.
+Vector first_of(const Eigen::Vector3d& x, int n) {
+  Vector first(n);
+  for (int i = 0; i < n; ++i) first[i] = x[i];
+  return first;
 }
 
 /// Marquardt's step (J^T J + damping diag(J^T J)) x = J^T error (SIAM J. 11, 1963); undamped, Newton's.
@@ -100,9 +108,10 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
   Eigen::Vector3d error = on_axes(point - state->position);
   Eigen::Matrix3d J = jacobian_of(*state);
   for (int i = 0; i < kMostIterations; ++i) {
-    const Eigen::Vector3d step = damped_step(J, error, damping);
-    const Vector trial = psi + step.head(model_.n());
-    const bool sound = step.allFinite() && (J * step).norm() <= scale_;
+    const Vector step = first_of(damped_step(J, error, damping), model_.n());
+    const Vector trial = psi + step;
+    // Longer steps would wind the motors up.
+    const bool sound = step.allFinite() && step.cwiseQuotient(motor_scale_).norm() <= 0.5;
     const double distance = error.norm();
     // What Newton's method still has to go is quadratically small: this step ends it.
     if (sound && damping == 0 && distance <= 1e-10 * scale_) {
@@ -127,38 +136,41 @@ IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, do
   psi = home_;
   if (arm_) return closed_form(point, psi);
   const double det_home = jacobian_of(forward(home_, zero_, zero_, t)).determinant();
-  bool any = false;
-  double nearest_solution = HUGE_VAL, nearest_miss = HUGE_VAL;
-  for (int attempt = 0; attempt <= kStartsFromHome; ++attempt) {
-    Vector found = home_;
+  const auto on_home_side = [&](const Vector& at) {
+    return det_home * jacobian_of(forward(at, zero_, zero_, t)).determinant() >= 0 && (!accepts || accepts(at));
+  };
+  bool found_other = false;
+  double nearest = HUGE_VAL, least_miss = HUGE_VAL;
+  for (int start = 0; start <= kStartsFromHome; ++start) {
     // Spread evenly about home (a Kronecker sequence), farther and farther away.
-    for (Eigen::Index i = 0; attempt > 0 && i < found.size(); ++i)
-      found[i] += motor_scale_[i] * attempt / kStartsFromHome * (2 * std::fmod(0.5 + attempt * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0) - 1);
-    const IkOutcome outcome = position(point, t, found);
-    const double missed = miss(point, t, found), away = (found - home_).cwiseQuotient(motor_scale_).norm();
-    if (outcome != IkOutcome::kSolved) {
-      if (nearest_solution == HUGE_VAL && missed < nearest_miss) psi = found;
-      nearest_miss = std::min(nearest_miss, missed);
-      continue;
+    const double spread = kFarthestStart * start / kStartsFromHome;
+    if (nearest <= spread) break;
+    Vector found = home_;
+    for (Eigen::Index i = 0; i < found.size(); ++i)
+      found[i] += spread * motor_scale_[i] * (2 * std::fmod(0.5 + start * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0) - 1);
+    if (start > 0 && !on_home_side(found)) continue;
+    if (position(point, t, found) != IkOutcome::kSolved) {
+      const double missed = miss(point, t, found);
+      if (nearest == HUGE_VAL && !found_other && missed < least_miss) psi = found;
+      least_miss = std::min(least_miss, missed);
+    } else if (!on_home_side(found)) {
+      found_other = true;
+    } else if (const double away = (found - home_).cwiseQuotient(motor_scale_).norm(); away < nearest) {
+      nearest = away;
+      psi = found;
     }
-    any = true;
-    const bool same_side = det_home == 0 || det_home * jacobian_of(forward(found, zero_, zero_, t)).determinant() > 0;
-    if (!same_side || (accepts && !accepts(found)) || away >= nearest_solution) continue;
-    nearest_solution = away;
-    psi = found;
-    if (attempt == 0) break;
   }
-  if (nearest_solution < HUGE_VAL) return IkOutcome::kSolved;
-  return any ? IkOutcome::kOtherBranch : IkOutcome::kOutOfReach;
+  if (nearest < HUGE_VAL) return IkOutcome::kSolved;
+  return found_other ? IkOutcome::kOtherBranch : IkOutcome::kOutOfReach;
 }
 
 IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vector& psi, Vector& psid, Vector& psidd) {
   if (arm_) return closed_form_rates(point, psid, psidd);
   const EndEffectorState<double>& drift = forward(psi, zero_, zero_, t);
   const Eigen::PartialPivLU<Eigen::Matrix3d> J(jacobian_of(drift));
-  psid = J.solve(on_axes(point.velocity - drift.velocity)).head(model_.n());
+  psid = first_of(J.solve(on_axes(point.velocity - drift.velocity)), model_.n());
   if (!psid.allFinite()) return IkOutcome::kSingular;
-  psidd = J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)).head(model_.n());
+  psidd = first_of(J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)), model_.n());
   return psidd.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
 }
 

@@ -66,10 +66,12 @@ Itinerary::Within Itinerary::within(double step) const {
 PathPoint Itinerary::at(double step) const {
   const auto [stretch, x] = within(step);
   const double T_T = static_cast<double>(stretch.count) / step_rate_;
-  // The line as a whole is one unit long: both its ends come out exact.
   const auto [s, sd, sdd] = cycloid(x, 1, T_T);
   const Eigen::Vector3d along = stretch.to - stretch.from;
-  return {(1 - s) * stretch.from + s * stretch.to, sd * along, sdd * along};
+  // From the nearer end: both come out exact.
+  PathPoint point{stretch.from + s * along, sd * along, sdd * along};
+  if (s > 0.5) point.position = stretch.to - (1 - s) * along;
+  return point;
 }
 
 std::string Itinerary::to_text(const Eigen::Vector3d& point) const {

@@ -34,8 +34,9 @@ void LimitCheck::look(std::int64_t step, const Reference& reference, double t) {
 }
 
 void LimitCheck::compare(std::int64_t step, std::size_t motor, double value, double limit, bool torque) {
+  constexpr double kSlack = 1e-9;  // a move worked out to run at its limit is off by rounding
   const double ratio = std::abs(value) / limit;
-  if (ratio <= (worst_ ? worst_->ratio : 1)) return;
+  if (ratio <= (worst_ ? worst_->ratio : 1 + kSlack)) return;
   const auto& [name, linear] = model_.scene->motors[motor];
   const char* unit = torque ? (linear ? "N" : "N m") : (linear ? "m/s" : "rad/s");
   worst_ = Excess{step, ratio,

@@ -13,8 +13,8 @@ namespace mixloop {
 
 /// What a path must respect; an empty list is no limit. One value a motor.
 struct PlanLimits {
-  std::vector<double> velocity;  ///< rad/s or m/s
-  std::vector<double> torque;    ///< N m or N, along the path by inverse dynamics of the plan's model
+  std::vector<double> velocity = {};  ///< rad/s or m/s
+  std::vector<double> torque = {};    ///< N m or N, along the path by inverse dynamics of the plan's model
 };
 
 /// The worst excess over a limit.

@@ -17,7 +17,7 @@ struct Path {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m; only the scene's axes count
     double duration = 0;                              ///< of the line that leads here, s; 0 for the first point
     double dwell = 0;                                 ///< rest here before going on, s
-    Place place;
+    Place place = {};
   };
   std::vector<Via> vias;              ///< two or more
   std::vector<int> axes = {0, 1, 2};  ///< which of x, y, z the points prescribe

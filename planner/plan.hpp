@@ -19,8 +19,8 @@ class Plan {
   struct Settings {
     double rate_hz = 1000;
     int stages_per_tick = 1;        ///< 2 * substeps for control evaluated at every RK4 stage, else 1
-    PlanLimits limits;
-    std::vector<double> start_psi;  ///< where the motors stand; empty: at the path's start
+    PlanLimits limits = {};
+    std::vector<double> start_psi = {};  ///< where the motors stand; empty: at the path's start
   };
 
   /// Throws InputError saying where on the path and why: "unreachable", "singular_path", "crosses_branch",

@@ -145,8 +145,8 @@ std::int64_t PlanMaker::approach_ticks(const Plan& plan, const Vector& move) con
   double duration = 1;
   constexpr double kPeak = 15.0 / 8;  // of the quintic's rate over its mean
   for (int i = 0; i < plan.n_; ++i)
-    if (fastest[i] > 0) duration = std::max(duration, kPeak * std::abs(move[i]) / fastest[i] * (1 + 1e-9));
-  return static_cast<std::int64_t>(std::ceil(duration * settings_.rate_hz * (1 - 1e-12)));
+    if (fastest[i] > 0) duration = std::max(duration, kPeak * std::abs(move[i]) / fastest[i]);
+  return static_cast<std::int64_t>(std::ceil(duration * settings_.rate_hz * (1 - 1e-10)));
 }
 
 namespace {
@@ -220,7 +220,7 @@ void PlanMaker::rest_past_the_end(Plan& plan) {
 void PlanMaker::refuse_start(IkOutcome outcome, const Vector& nearest) {
   const std::string where = "the path's start, " + itinerary_.describe(0) + ", ";
   if (outcome == IkOutcome::kOtherBranch) throw InputError("crosses_branch", path_.vias[0].place, where + "can be reached only on another branch than home's");
-  if (outcome == IkOutcome::kSingular) throw InputError("singular_path", path_.vias[0].place, where + "is a singular pose");
+  if (outcome == IkOutcome::kSingular) refuse_singular(0, nearest, 0);
   throw InputError("unreachable", path_.vias[0].place, where + "is out of reach: " + reach_text(0, nearest));
 }
 
@@ -234,6 +234,14 @@ std::string PlanMaker::reach_text(double step, Vector psi) {
   const ArmReach reach = reach_of(arm, point);
   if (reach.beside < 0) return fmt::format("{:.6g} m from the base axis; the arm's plane is {:.6g} m from it", point.head<2>().norm(), std::abs(arm.lateral));
   return fmt::format("{:.6g} m from the shoulder axis; the arm reaches from {:.6g} to {:.6g} m", reach.distance, arm.nearest(), arm.farthest());
+}
+
+// Which singularity it is: that whose measure is least at the last pose before it.
+void PlanMaker::refuse_singular(double step, const Vector& last, double t) {
+  std::vector<double> values(measures_.count());
+  measures_.evaluate(last, t, values.data());
+  const auto least = std::min_element(values.begin(), values.end());
+  refuse({step, static_cast<std::size_t>(least - values.begin()), std::max(*least, 0.0), false}, itinerary_.step_rate());
 }
 
 double PlanMaker::out_of_reach(double step, Vector psi) {
@@ -251,13 +259,7 @@ double PlanMaker::out_of_reach(double step, Vector psi) {
 // Where the way ends, and how far beyond it the path goes.
 void PlanMaker::refuse(IkOutcome outcome, Follower& follower, double step) {
   const double limit = follower.limit(step);
-  if (outcome == IkOutcome::kSingular) {
-    // Which one: that whose measure is least at the last pose before it.
-    std::vector<double> values(measures_.count());
-    measures_.evaluate(follower.now().psi, follower.time(limit), values.data());
-    const auto least = static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
-    refuse(Passage{limit, least, values[least], false}, itinerary_.step_rate());
-  }
+  if (outcome == IkOutcome::kSingular) refuse_singular(limit, follower.now().psi, follower.time(limit));
   double worst = step, most = 0;
   const auto end = static_cast<double>(itinerary_.lap_steps());
   for (int i = 0; i <= 256; ++i) {

@@ -28,6 +28,7 @@ class PlanMaker {
   std::string reach_text(double step, Vector psi);
   [[noreturn]] void refuse_start(IkOutcome outcome, const Vector& nearest);
   [[noreturn]] void refuse(IkOutcome outcome, Follower& follower, double step);
+  [[noreturn]] void refuse_singular(double step, const Vector& last, double t);
   [[noreturn]] void refuse(const Passage& passage, double rate);
 
   const Model<double>& model_;
