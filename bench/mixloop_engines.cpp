@@ -1,29 +1,38 @@
 // SPDX-License-Identifier: MIT
-// The project's own evaluations of scenes/mixed_loop_robot.yaml. The compiled programs go here as well.
+// The project's own evaluations of scenes/mixed_loop_robot.yaml; its payload is a parameter.
 #include <memory>
+#include <utility>
 
 #include "bench/engine.hpp"
-#include "dynamics/procedure/procedure.hpp"
+#include "dynamics/evaluator.hpp"
 #include "dynamics/scene/load_scene.hpp"
 
 namespace mixloop::bench {
+namespace {
+
+Engine engine(const std::shared_ptr<const Scene>& scene, Evaluation how) {
+  const std::vector<double> parameters{kPayload};
+  const auto dynamics = std::make_shared<Dynamics>(
+      scene, parameters, how, std::initializer_list<Purpose>{Purpose::forward_dynamics, Purpose::mass_matrix});
+  Engine made;
+  made.name = "mixloop, " + std::string(name_of(dynamics->evaluation()));
+  made.forward = [dynamics](const State& state, Triple& psidd) {
+    dynamics->forward_dynamics(state.psi, state.psid, state.tau, 0.0, psidd);
+  };
+  made.mass = [dynamics](const State& state, Symmetric& upper) {
+    std::array<double, 9> M;
+    dynamics->mass_matrix(state.psi, 0.0, M);
+    upper = {M[0], M[3], M[6], M[4], M[7], M[8]};
+  };
+  return made;
+}
+
+}  // namespace
 
 void add_mixloop(Engines& engines) {
-  const auto scene = std::make_shared<const Scene>(load_scene(MIXLOOP_SCENES "/mixed_loop_robot.yaml"));
-  const std::vector<double> parameters{kPayload};
-  const auto model = std::make_shared<const Model<double>>(make_model<double>(scene, parameters));
-  const auto workspace = std::make_shared<Workspace<double>>(*model);
-  Engine reference;
-  reference.name = "mixloop, reference procedure";
-  reference.forward = [=](const State& state, Triple& psidd) {
-    const auto& result = forward_dynamics<double>(*model, state.psi, state.psid, state.tau, 0.0, *workspace);
-    psidd = {result[0], result[1], result[2]};
-  };
-  reference.mass = [=](const State& state, Symmetric& upper) {
-    const auto& M = mass_matrix<double>(*model, state.psi, 0.0, *workspace);
-    upper = {M(0, 0), M(0, 1), M(0, 2), M(1, 1), M(1, 2), M(2, 2)};
-  };
-  engines.push_back(std::move(reference));
+  const auto scene = std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES) / "mixed_loop_robot.yaml"));
+  for (const Evaluation how : {Evaluation::machine_code, Evaluation::interpreter, Evaluation::reference})
+    engines.push_back(engine(scene, how));
 }
 
 }  // namespace mixloop::bench

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 
 namespace mixloop::bench {
 
@@ -18,7 +17,8 @@ struct TreeJoint {
 
 inline constexpr int kJoints = 6;
 inline constexpr int kEndEffectorJoint = 2;  ///< E is the origin of its link's frame
-inline constexpr double kRightAngle = std::numbers::pi / 2;
+inline constexpr double kPi = 3.14159265358979323846;  // C++17 here, for a peer's headers
+inline constexpr double kRightAngle = kPi / 2;
 
 inline constexpr std::array<TreeJoint, kJoints> kTree = {{
     {-1, 0.30, 0.00, kRightAngle, 2.00, {0, -0.15, 0}, {0.044, 0.008, 0.044}},
@@ -40,7 +40,7 @@ inline constexpr std::array<std::array<double, 3>, kJoints> kCoupling = {{
     {0, 1.0 / 16, -1.0 / 16},
 }};
 
-constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+constexpr double radians(double degrees) { return degrees * kPi / 180; }
 inline constexpr std::array<double, kJoints> kCouplingOffset = {0, 0, radians(46 - 2 * (180 + 57 - 115)),
                                                                 0, radians(-57), radians(180 + 57)};
 

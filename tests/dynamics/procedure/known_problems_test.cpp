@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/dynamics/procedure/evaluation.hpp"
+#include "tests/dynamics/procedure/scene_procedure.hpp"
 
 namespace mixloop {
 namespace {
@@ -46,7 +46,7 @@ class Problem {
   }
 
  private:
-  Evaluation<double> evaluation_;
+  Procedure<double> evaluation_;
 };
 
 TEST(DoubleFourBar, ReducesToOnePendulum) {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "tests/dynamics/procedure/evaluation.hpp"
+#include "tests/dynamics/procedure/scene_procedure.hpp"
 #include "tests/oracles/random_mechanism.hpp"
 #include "tests/oracles/wide.hpp"
 
@@ -72,7 +72,7 @@ TEST(RandomMechanisms, AgreeWithLagrangeMultipliersInWideFloats) {
     const WideState s(state);
     const auto constraints = mechanism.template constraints<Wide>(s.psi, s.psid, s.t);
     const auto solution = oracle::multiplier_forward_dynamics<Wide>(mechanism.template tree<Wide>(s.t), constraints, s.input);
-    Evaluation<Wide> evaluation(scene);
+    Procedure<Wide> evaluation(scene);
     const WideVector psidd = evaluation.forward(s.psi, s.psid, s.input, s.t);
     const double scale = 1 + static_cast<double>(solution.psidd.norm());
     EXPECT_LT(distance(psidd, solution.psidd), 1e-26 * scale);
@@ -87,14 +87,14 @@ TEST(RandomMechanisms, AgreeWithLagrangeMultipliersInDoubles) {
     const WideState s(state);
     const auto constraints = mechanism.template constraints<Wide>(s.psi, s.psid, s.t);
     const auto solution = oracle::multiplier_forward_dynamics<Wide>(mechanism.template tree<Wide>(s.t), constraints, s.input);
-    const VectorX psidd = Evaluation<double>(scene).forward(state.psi, state.psid, state.input, state.t);
+    const VectorX psidd = Procedure<double>(scene).forward(state.psi, state.psid, state.input, state.t);
     EXPECT_LT(distance(psidd.template cast<Wide>(), solution.psidd), 1e-10 * (1 + static_cast<double>(solution.psidd.norm())));
   });
 }
 
 TEST(RandomMechanisms, InverseDynamicsUndoesForwardDynamics) {
   for_random_mechanisms({kNonlinear, kEverything}, [](const auto&, const Scene& scene, const State& s) {
-    Evaluation<double> evaluation(scene);
+    Procedure<double> evaluation(scene);
     const VectorX psidd = evaluation.forward(s.psi, s.psid, s.input, s.t);
     const double scale = s.input.norm() + evaluation.h(s.psi, s.psid, s.t).norm();
     EXPECT_LT((evaluation.inverse(s.psi, s.psid, psidd, s.t) - s.input).norm(), 1e-11 * scale);
@@ -103,7 +103,7 @@ TEST(RandomMechanisms, InverseDynamicsUndoesForwardDynamics) {
 
 TEST(RandomMechanisms, HaveASymmetricPositiveDefiniteMassMatrix) {
   for_random_mechanisms({kLinear, kNonlinear, kEverything}, [](const auto&, const Scene& scene, const State& s) {
-    const MatrixX M = Evaluation<double>(scene).mass(s.psi, s.t);
+    const MatrixX M = Procedure<double>(scene).mass(s.psi, s.t);
     EXPECT_TRUE((M.array() == M.transpose().array()).all());
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixX>(M).eigenvalues()[0], 0);
   });
@@ -114,7 +114,7 @@ TEST(RandomMechanisms, HaveASymmetricPositiveDefiniteMassMatrix) {
 TEST(RandomMechanisms, MassRateLessTwiceCoriolisIsSkew) {
   for_random_mechanisms({kLinear, kNonlinear}, [](const auto&, const Scene& scene, const State& state) {
     const WideState s(state);
-    Evaluation<Wide> evaluation(scene);
+    Procedure<Wide> evaluation(scene);
     const Wide step(1e-10);
     const WideMatrix ahead = evaluation.mass(s.psi + step * s.psid), behind = evaluation.mass(s.psi - step * s.psid);
     const WideVector rest = evaluation.h(s.psi, WideVector::Zero(s.psi.size())), h = evaluation.h(s.psi, s.psid);
@@ -126,7 +126,7 @@ TEST(RandomMechanisms, MassRateLessTwiceCoriolisIsSkew) {
 TEST(RandomMechanisms, MotorPowerIsTheRateOfEnergy) {
   for_random_mechanisms({kLinear, kNonlinear}, [](const auto&, const Scene& scene, const State& state) {
     const WideState s(state);
-    Evaluation<Wide> evaluation(scene);
+    Procedure<Wide> evaluation(scene);
     const WideVector psidd = evaluation.forward(s.psi, s.psid, s.input);
     const auto total = [&](const Wide& dt) {
       const auto E = evaluation.energies(s.psi + dt * s.psid + dt * dt / 2 * psidd, s.psid + dt * psidd);
@@ -143,7 +143,7 @@ TEST(RandomMechanisms, ObeyLagrangesEquationsWithTimeDependentConstraints) {
   for_random_mechanisms({MechanismKind{.nonlinear = true, .timed = true}}, [](const auto& mechanism, const Scene& scene, const State& state) {
     const int n = mechanism.n();
     const WideState s(state);
-    Evaluation<Wide> evaluation(scene);
+    Procedure<Wide> evaluation(scene);
     const Wide step(1e-8);
     const auto kinetic = [&](const WideVector& psi, const WideVector& psid, const Wide& t) { return evaluation.energies(psi, psid, t).kinetic; };
     const auto momentum = [&](const WideVector& psi, const WideVector& psid, const Wide& t) {
@@ -172,7 +172,7 @@ TEST(RandomMechanisms, ObeyLagrangesEquationsWithTimeDependentConstraints) {
 TEST(RandomMechanisms, EndEffectorDerivativesAreThoseOfItsPosition) {
   for_random_mechanisms({kLinear, kNonlinear, kEverything}, [](const auto& mechanism, const Scene& scene, const State& state) {
     const WideState s(state);
-    Evaluation<Wide> evaluation(scene);
+    Procedure<Wide> evaluation(scene);
     const Wide step(1e-10);
     const auto end = evaluation.end(s.psi, s.psid, s.input, s.t);
     const auto along = [&](const Wide& dt) {

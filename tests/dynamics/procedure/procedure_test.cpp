@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/dynamics/procedure/evaluation.hpp"
+#include "tests/dynamics/procedure/scene_procedure.hpp"
 #include "tests/oracles/mixed_loop_robot.hpp"
 #include "tests/oracles/paper_tree.hpp"
 #include "tests/oracles/wide.hpp"
@@ -33,7 +33,7 @@ State random_state(std::mt19937_64& random) {
 }
 
 TEST(Procedure, GivesEveryPrintedDigitOfTheReferenceState) {
-  Evaluation<double> robot(paper_scene());
+  Procedure<double> robot(paper_scene());
   const Vector3 psi(1, 2, 3), psid(0.1, 0.2, 0.3);
   const auto M = robot.mass(psi);
   // One unit of the last printed digit.
@@ -58,7 +58,7 @@ TEST(Procedure, GivesEveryPrintedDigitOfTheReferenceState) {
 TEST(Procedure, AgreesWithTheClosedFormOverTenThousandStates) {
   using Extended = long double;  // 64 bits of mantissa: 1e-16 after M's condition number
   using ExtendedVector = oracle::MixedLoopRobot<Extended>::Vector3;
-  Evaluation<double> robot(paper_scene());
+  Procedure<double> robot(paper_scene());
   const oracle::MixedLoopRobot<Extended> closed_form(oracle::paper_numbers<Extended>());
   std::mt19937_64 random(20260215);
   double worst_forward = 0, worst_inverse = 0;
@@ -85,7 +85,7 @@ TEST(Procedure, AgreesWithTheClosedFormOverTenThousandStates) {
 TEST(Procedure, AgreesWithTheClosedFormForEveryPayload) {
   std::mt19937_64 random(6);
   for (const double payload : {0.0, 0.5, 3.0, 20.0}) {
-    Evaluation<double> robot(paper_scene(), {payload});
+    Procedure<double> robot(paper_scene(), {payload});
     const oracle::MixedLoopRobot<double> closed_form(oracle::paper_numbers(payload, 9.81));
     for (int sample = 0; sample < 100; ++sample) {
       const auto [psi, psid, tau] = random_state(random);
@@ -97,7 +97,7 @@ TEST(Procedure, AgreesWithTheClosedFormForEveryPayload) {
 }
 
 TEST(Procedure, AgreesWithLagrangeMultipliersOnTheSameTree) {
-  Evaluation<double> robot(paper_scene());
+  Procedure<double> robot(paper_scene());
   const auto tree = oracle::paper_tree<double>(5.0, 9.81);
   std::mt19937_64 random(8);
   for (int sample = 0; sample < 500; ++sample) {
@@ -112,7 +112,7 @@ TEST(Procedure, AgreesWithLagrangeMultipliersOnTheSameTree) {
 // In 113 bits the only differences left are the scene's decimals, rounded to doubles (1e-16).
 TEST(Procedure, AgreesWithTheClosedFormInWideFloats) {
   using WideVector = oracle::MixedLoopRobot<Wide>::Vector3;
-  Evaluation<Wide> robot(paper_scene());
+  Procedure<Wide> robot(paper_scene());
   const oracle::MixedLoopRobot<Wide> closed_form(oracle::paper_numbers<Wide>());
   std::mt19937_64 random(9);
   for (int sample = 0; sample < 20; ++sample) {
@@ -125,7 +125,7 @@ TEST(Procedure, AgreesWithTheClosedFormInWideFloats) {
 }
 
 TEST(Procedure, EndEffectorMovesAsTheClosedFormSays) {
-  Evaluation<double> robot(paper_scene());
+  Procedure<double> robot(paper_scene());
   const oracle::MixedLoopRobot<double> closed_form(oracle::paper_numbers<double>());
   std::mt19937_64 random(10);
   for (int sample = 0; sample < 200; ++sample) {

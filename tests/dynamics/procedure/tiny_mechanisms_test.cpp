@@ -2,7 +2,7 @@
 // Mechanisms so small that their answers are whole numbers, worked out by hand in the comments. g = 10.
 #include <gtest/gtest.h>
 
-#include "tests/dynamics/procedure/evaluation.hpp"
+#include "tests/dynamics/procedure/scene_procedure.hpp"
 
 namespace mixloop {
 namespace {
@@ -10,8 +10,8 @@ namespace {
 using Vector1 = Eigen::Matrix<double, 1, 1>;
 using Vector2 = Eigen::Vector2d;
 
-Evaluation<double> mechanism(const char* text) {
-  return Evaluation<double>(load_scene(parse_document(text, "tiny.yaml")));
+Procedure<double> mechanism(const char* text) {
+  return Procedure<double>(load_scene(parse_document(text, "tiny.yaml")));
 }
 
 Vector1 one(double x) { return Vector1(x); }

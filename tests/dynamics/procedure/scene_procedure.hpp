@@ -13,13 +13,13 @@
 namespace mixloop {
 
 template <class T>
-class Evaluation {
+class Procedure {
  public:
   using Vector = oracle::VectorX<T>;
   using Matrix = oracle::MatrixX<T>;
 
-  explicit Evaluation(const Scene& scene) : Evaluation(scene, scene.default_parameters()) {}
-  Evaluation(const Scene& scene, const std::vector<double>& parameters)
+  explicit Procedure(const Scene& scene) : Procedure(scene, scene.default_parameters()) {}
+  Procedure(const Scene& scene, const std::vector<double>& parameters)
       : model_(make_model<T>(std::make_shared<const Scene>(scene),
                              std::vector<T>(parameters.begin(), parameters.end()))),
         workspace_(model_) {}
