@@ -20,13 +20,13 @@ using Lanes4 = Vectors<4>::Real;
 using Lanes8 = Vectors<8>::Real;
 
 template <int kLanes, class Function>
-inline typename Vectors<kLanes>::Real lane_by_lane(typename Vectors<kLanes>::Real x, Function function) {
+MIXLOOP_INLINE typename Vectors<kLanes>::Real lane_by_lane(typename Vectors<kLanes>::Real x, Function function) {
   for (int i = 0; i < kLanes; ++i) x[i] = function(x[i]);
   return x;
 }
 
 template <int kLanes>
-inline void sincos(typename Vectors<kLanes>::Real x, typename Vectors<kLanes>::Real* sine,
+MIXLOOP_INLINE void sincos(typename Vectors<kLanes>::Real x, typename Vectors<kLanes>::Real* sine,
                    typename Vectors<kLanes>::Real* cosine) {
   using namespace mixloop_sincos;
   using Real = typename Vectors<kLanes>::Real;
@@ -53,20 +53,24 @@ inline void sincos(typename Vectors<kLanes>::Real x, typename Vectors<kLanes>::R
 }  // namespace mixloop_lanes
 
 namespace mixloop_sincos {
-inline void sincos(mixloop_lanes::Lanes4 x, mixloop_lanes::Lanes4* s, mixloop_lanes::Lanes4* c) {
+MIXLOOP_INLINE void sincos(mixloop_lanes::Lanes4 x, mixloop_lanes::Lanes4* s, mixloop_lanes::Lanes4* c) {
   mixloop_lanes::sincos<4>(x, s, c);
 }
-inline void sincos(mixloop_lanes::Lanes8 x, mixloop_lanes::Lanes8* s, mixloop_lanes::Lanes8* c) {
+MIXLOOP_INLINE void sincos(mixloop_lanes::Lanes8 x, mixloop_lanes::Lanes8* s, mixloop_lanes::Lanes8* c) {
   mixloop_lanes::sincos<8>(x, s, c);
+}
+template <int kCount, class Lanes>
+MIXLOOP_INLINE void sincos_of(const Lanes (&x)[kCount], Lanes (&sine)[kCount], Lanes (&cosine)[kCount]) {
+  for (int i = 0; i < kCount; ++i) sincos(x[i], sine + i, cosine + i);
 }
 }  // namespace mixloop_sincos
 
 namespace {
 #define MIXLOOP_LANE_BY_LANE(name, function)                                          \
-  inline mixloop_lanes::Lanes4 name(mixloop_lanes::Lanes4 x) {                        \
+  MIXLOOP_INLINE mixloop_lanes::Lanes4 name(mixloop_lanes::Lanes4 x) {                        \
     return mixloop_lanes::lane_by_lane<4>(x, [](double y) { return function(y); });   \
   }                                                                                   \
-  inline mixloop_lanes::Lanes8 name(mixloop_lanes::Lanes8 x) {                        \
+  MIXLOOP_INLINE mixloop_lanes::Lanes8 name(mixloop_lanes::Lanes8 x) {                        \
     return mixloop_lanes::lane_by_lane<8>(x, [](double y) { return function(y); });   \
   }
 MIXLOOP_LANE_BY_LANE(mixloop_sqrt, sqrt)
@@ -74,7 +78,7 @@ MIXLOOP_LANE_BY_LANE(mixloop_exp, exp)
 MIXLOOP_LANE_BY_LANE(mixloop_log, log)
 #undef MIXLOOP_LANE_BY_LANE
 template <class Lanes>
-inline Lanes mixloop_atan2(Lanes y, Lanes x) {
+MIXLOOP_INLINE Lanes mixloop_atan2(Lanes y, Lanes x) {
   for (unsigned i = 0; i < sizeof(Lanes) / sizeof(double); ++i) y[i] = atan2(y[i], x[i]);
   return y;
 }

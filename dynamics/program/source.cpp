@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mixloop {
@@ -24,7 +25,7 @@ std::string number(double x) {
 class Writer {
  public:
   Writer(const Program& program, const SourceStyle& style)
-      : program_(program), style_(style), partner_(program.partners()), hoisted_(program.hoisted()) {
+      : program_(program), style_(style), hoisted_(program.hoisted()) {
     name_.resize(program.nodes.size());
   }
 
@@ -87,24 +88,71 @@ class Writer {
     for (NodeId id = 0; id < program_.nodes.size(); ++id) {
       const ExpressionNode& n = program_.nodes[id];
       if (n.op == Op::constant) name_[id] = number(n.value);
-      if (program_.stages[id] != stage || n.op == Op::constant) continue;
-      if (n.op == Op::input) {
-        name_[id] = input(n);
-      } else if (name_[id].empty() || stage == Stage::set_up) {
-        statement(id, n, type);
-      }
+      if (n.op == Op::input && program_.stages[id] == stage) name_[id] = input(n);
     }
+    const std::vector<std::vector<NodeId>> batches = angle_batches(stage);
+    std::vector<bool> written(program_.nodes.size(), false);
+    for (const std::vector<NodeId>& batch : batches) {
+      for (NodeId angle : batch) write_with_operands(angle, stage, type, written);
+      sines_and_cosines(batch, type);
+    }
+    for (NodeId id = 0; id < program_.nodes.size(); ++id) write_once(id, stage, type, written);
+  }
+
+  static bool is_trigonometric(Op op) { return op == Op::sin || op == Op::cos; }
+  bool is_leaf(NodeId id) const { return program_.nodes[id].op == Op::constant || program_.nodes[id].op == Op::input; }
+
+  // Angles whose sines and cosines can be had together: none of a batch's angles needs another's sine.
+  std::vector<std::vector<NodeId>> angle_batches(Stage stage) const {
+    constexpr std::size_t kTogether = 4;
+    std::vector<int> depth(program_.nodes.size(), 0);
+    std::vector<std::vector<NodeId>> levels;
+    for (NodeId id = 0; id < program_.nodes.size(); ++id) {
+      const ExpressionNode& n = program_.nodes[id];
+      if (is_leaf(id) || program_.stages[id] != stage) continue;
+      depth[id] = std::max(depth[n.a], is_binary(n.op) ? depth[n.b] : 0) + is_trigonometric(n.op);
+      if (!is_trigonometric(n.op)) continue;
+      levels.resize(std::max(levels.size(), static_cast<std::size_t>(depth[id])));
+      auto& level = levels[static_cast<std::size_t>(depth[id]) - 1];
+      if (std::find(level.begin(), level.end(), n.a) == level.end()) level.push_back(n.a);
+    }
+    std::vector<std::vector<NodeId>> batches;
+    for (const auto& level : levels)
+      for (std::size_t from = 0; from < level.size(); from += kTogether)
+        batches.emplace_back(level.begin() + static_cast<std::ptrdiff_t>(from),
+                             level.begin() + static_cast<std::ptrdiff_t>(std::min(level.size(), from + kTogether)));
+    return batches;
+  }
+
+  // What a node takes, operands first, without recursion.
+  void write_with_operands(NodeId root, Stage stage, const char* type, std::vector<bool>& written) {
+    std::vector<NodeId> waiting{root}, wanted;
+    std::vector<bool> seen(root + 1, false);
+    while (!waiting.empty()) {
+      const NodeId id = waiting.back();
+      waiting.pop_back();
+      if (seen[id] || is_leaf(id) || program_.stages[id] != stage || written[id]) continue;
+      seen[id] = true;
+      wanted.push_back(id);
+      waiting.push_back(program_.nodes[id].a);
+      if (is_binary(program_.nodes[id].op)) waiting.push_back(program_.nodes[id].b);
+    }
+    std::sort(wanted.begin(), wanted.end());
+    for (NodeId id : wanted) write_once(id, stage, type, written);
+  }
+
+  void write_once(NodeId id, Stage stage, const char* type, std::vector<bool>& written) {
+    const ExpressionNode& n = program_.nodes[id];
+    if (written[id] || is_leaf(id) || program_.stages[id] != stage) return;
+    written[id] = true;
+    if (is_trigonometric(n.op)) return;  // written with its batch
+    name_[id] = fmt::format("v{}", id);
+    line("  const {} v{} = {};", type, id, right_side(n));
   }
 
   static std::string input(const ExpressionNode& n) {
     constexpr const char* kNames[] = {"psi", "psid", "input", "t", "parameters"};
     return static_cast<Block>(n.a) == Block::time ? "t" : fmt::format("{}[{}]", kNames[n.a], n.b);
-  }
-
-  void statement(NodeId id, const ExpressionNode& n, const char* type) {
-    if (n.op == Op::sin || n.op == Op::cos) return sine_and_cosine(id, n, type);
-    name_[id] = fmt::format("v{}", id);
-    line("  const {} v{} = {};", type, id, right_side(n));
   }
 
   std::string right_side(const ExpressionNode& n) const {
@@ -125,30 +173,49 @@ class Writer {
 
   std::string lifted(NodeId id) const { return in_run_ ? as_real(id) : name_[id]; }
 
-  void sine_and_cosine(NodeId id, const ExpressionNode& n, const char* type) {
-    const NodeId other = partner_[id];
-    const NodeId sine = n.op == Op::sin ? id : other, cosine = n.op == Op::sin ? other : id;
-    const std::string s = fmt::format("s{}", n.a), c = fmt::format("c{}", n.a);
-    if (sine < name_.size()) name_[sine] = s;
-    if (cosine < name_.size()) name_[cosine] = c;
-    line("  {0} {1}, {2};\n  mixloop_sincos::sincos({3}, &{1}, &{2});", type, s, c, name_[n.a]);
+  void sines_and_cosines(const std::vector<NodeId>& batch, const char* type) {
+    std::string angles;
+    for (NodeId angle : batch) angles += (angles.empty() ? "" : ", ") + name_[angle];
+    const std::size_t first = batches_++, count = batch.size();
+    line("  const {0} a{1}[] = {{{2}}};\n  {0} s{1}[{3}], c{1}[{3}];\n  mixloop_sincos::sincos_of<{3}>(a{1}, s{1}, c{1});",
+         type, first, angles, count);
+    for (NodeId id = 0; id < program_.nodes.size(); ++id) {
+      const ExpressionNode& n = program_.nodes[id];
+      if (!is_trigonometric(n.op)) continue;
+      const auto place = std::find(batch.begin(), batch.end(), n.a);
+      if (place != batch.end())
+        name_[id] = fmt::format("{}{}[{}]", n.op == Op::sin ? 's' : 'c', first, place - batch.begin());
+    }
   }
 
   const Program& program_;
   const SourceStyle& style_;
-  std::vector<NodeId> partner_, hoisted_;
+  std::vector<NodeId> hoisted_;
   std::vector<std::string> name_;
   std::string text_;
+  std::size_t batches_ = 0;
   bool in_run_ = false;
 };
 
 constexpr const char* kLibrarySincos = R"(
+#if defined(__GNUC__)
+#define MIXLOOP_INLINE inline __attribute__((always_inline))
+#else
+#define MIXLOOP_INLINE inline
+#endif
 namespace mixloop_sincos {
-inline void sincos(double x, double* sine, double* cosine) {
+MIXLOOP_INLINE void sincos(double x, double* sine, double* cosine) {
   *sine = sin(x);
   *cosine = cos(x);
 }
+template <int kCount>
+MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount], double (&cosine)[kCount]) {
+#if defined(__GNUC__)
+#pragma GCC unroll 4
+#endif
+  for (int i = 0; i < kCount; ++i) sincos(x[i], sine + i, cosine + i);
 }
+}  // namespace mixloop_sincos
 )";
 
 constexpr const char* kFunctions = R"(
