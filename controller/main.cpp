@@ -23,10 +23,11 @@ int run(const PeerLine& line) {
   Controller controller = make_controller(experiment);
 
   Bus bus(line.bus);
-  ControllerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()),
-                      {.compute = [&](std::int64_t k, std::span<const double> psi, std::span<const double> psid, const reference_t& desired, std::span<double> tau) {
-                        controller.torque(psi, psid, reference_in(desired), static_cast<double>(k) / experiment.rate_hz, tau);
-                      }});
+  ControllerSide side;
+  side.compute = [&](std::int64_t k, std::span<const double> psi, std::span<const double> psid, const reference_t& desired, std::span<double> tau) {
+    controller.torque(psi, psid, reference_in(desired), static_cast<double>(k) / experiment.rate_hz, tau);
+  };
+  ControllerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()), std::move(side));
   return ended("mixloop-controller", peer.run(), peer.report(), stop);
 }
 

@@ -59,8 +59,8 @@ std::vector<std::string> missed(const Expectation& expectation, const Measures& 
     const double scale = torque ? 1 : 1e3;
     const char* unit = torque ? "N m" : "mm";
     const std::string name = torque ? fmt::format("{}[{}]", bound.name, bound.motor) : bound.name;
-    lines.push_back(bound.least > 0 ? fmt::format("{} is {:.6g} {}; expected {:.6g} to {:.6g}", name, value * scale, unit, bound.least * scale, bound.most * scale)
-                                    : fmt::format("{} is {:.6g} {}; expected at most {:.6g}", name, value * scale, unit, bound.most * scale));
+    lines.push_back(bound.least > 0 ? fmt::format("{} is {:.6g} {}; expected {:.6g} to {:.6g} {}", name, value * scale, unit, bound.least * scale, bound.most * scale, unit)
+                                    : fmt::format("{} is {:.6g} {}; expected at most {:.6g} {}", name, value * scale, unit, bound.most * scale, unit));
   }
   return lines;
 }

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <optional>
 
+#include "loop/keep.hpp"
 #include "loop/result.hpp"
 #include "runtime/clock.hpp"
 #include "runtime/log_writer.hpp"
@@ -193,6 +194,7 @@ nlohmann::json launched(const Experiment& experiment, const Launch& launch, cons
     throw InputError("out_of_range", {launch.experiment}, "plant.control is 'continuous': over the bus a torque is held from tick to tick; expected 'held' (mixloop simulate runs both)");
   const Plan plan = make_plan(experiment);
   require_multicast_route(multicast_group(launch.bus.url));
+  if (!launch.out.empty()) prepare_folder(launch.out);
   make_plant(experiment, plan);  // the programs are compiled once, not by each process
   make_controller(experiment);
 

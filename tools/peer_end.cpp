@@ -12,7 +12,6 @@ PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std
           .session = line.session,
           .config = config_of(experiment),
           .last_tick = last_tick,
-          .hold = line.hold,
           .first_wait = line.first_wait_ns(),
           .patience = line.patience_ns()};
 }

@@ -34,7 +34,6 @@ int run(Options& options) {
   speed_of(launch.speed);
   Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
   experiment.evaluation = launch.evaluation;
-  if (!launch.out.empty()) prepare_folder(launch.out);
   const auto print = [&](const nlohmann::json& result) {
     if (options.json) return;
     fmt::print("{}", summary(experiment, result));

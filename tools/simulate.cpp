@@ -15,8 +15,8 @@
 namespace mixloop {
 
 nlohmann::json simulated(const Experiment& experiment, const std::string& out, const StopSwitch& stop) {
-  if (!out.empty()) prepare_folder(out);
   const Plan plan = make_plan(experiment);
+  if (!out.empty()) prepare_folder(out);
   Recorder recorder(experiment, plan);
   Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);
   const Instant start = now();

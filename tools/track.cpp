@@ -36,7 +36,12 @@ nlohmann::json tracked(const std::string& file, const Options& options, const St
   const auto patience = nanoseconds(static_cast<std::int64_t>(options.patience * 1e9));
   if (options.attach) return attached(experiment, options.bus, patience, stop);
   if (!options.over_bus) return simulated(experiment, "", stop);
-  Launch launch{.experiment = file, .sets = options.sets, .bus = options.bus, .patience = options.patience, .evaluation = options.evaluation};
+  Launch launch;
+  launch.experiment = file;
+  launch.sets = options.sets;
+  launch.bus = options.bus;
+  launch.patience = options.patience;
+  launch.evaluation = options.evaluation;
   launch.quiet = true;
   return launched(experiment, launch, stop);
 }
