@@ -67,7 +67,7 @@ std::optional<Compiler> find_compiler() {
 
 const std::vector<std::string>& machine_code_flags() {
   static const std::vector<std::string> flags = {
-      "-std=c++17", "-O2", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared"};
+      "-std=c++17", "-O2", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-fno-plt", "-fPIC", "-shared"};
   return flags;
 }
 

@@ -96,15 +96,23 @@ double estimated_time(const OperationCount& count) {
          18.0 * static_cast<double>(count.sincos) + 25.0 * static_cast<double>(count.other);
 }
 
+namespace {
+
+// The literal procedure's Jacobians take m columns a body: on larger scenes it is not worth recording.
+bool is_small(const Scene& scene) { return scene.transforms.size() <= 8; }
+
+}  // namespace
+
 TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose) {
+  if (purpose == Purpose::end_effector) return {trace(scene, purpose, Tracing::literal), Tracing::literal};
   TracedProgram best;
-  for (Tracing tracing : {Tracing::literal, Tracing::recursive, Tracing::harmonic}) {
+  for (Tracing tracing : {Tracing::recursive, Tracing::harmonic, Tracing::literal}) {
+    if (tracing == Tracing::literal && !is_small(*scene)) continue;
     Program found = trace(scene, purpose, tracing);
     if (found.outputs.empty()) continue;
     if (best.program.outputs.empty() ||
         estimated_time(found.run_operations()) < estimated_time(best.program.run_operations()))
       best = {std::move(found), tracing};
-    if (purpose == Purpose::end_effector) break;  // kinematics: one way only
   }
   return best;
 }
