@@ -5,13 +5,13 @@ namespace mixloop {
 
 IkOutcome Follower::start(const InverseKinematics::Accepts& accepts) {
   const PathPoint desired = itinerary_.at(0);
-  const IkOutcome outcome = ik_.position_from_home(desired.position, time(0), now_.psi, accepts);
-  return outcome == IkOutcome::kSolved ? complete(0, desired, now_.psi) : outcome;
+  const IkOutcome outcome = ik_.position_from_home(desired.position, time(0), now_.motors.psi, accepts);
+  return outcome == IkOutcome::kSolved ? complete(0, desired, now_.motors.psi) : outcome;
 }
 
 IkOutcome Follower::complete(double step, const PathPoint& desired, Vector psi) {
-  Motion next{step, desired, std::move(psi), {}, {}};
-  const IkOutcome outcome = ik_.rates(desired, time(step), next.psi, next.psid, next.psidd);
+  Motion next{step, desired, {std::move(psi), {}, {}}};
+  const IkOutcome outcome = ik_.rates(desired, time(step), next.motors.psi, next.motors.psid, next.motors.psidd);
   if (outcome == IkOutcome::kSolved) now_ = std::move(next);
   return outcome;
 }
@@ -23,12 +23,13 @@ IkOutcome Follower::advance(double step) { return try_advance(step, ik_.arm() ? 
 IkOutcome Follower::try_advance(double step, int halvings) {
   const PathPoint desired = itinerary_.at(step);
   const double dt = time(step) - time(now_.step);
-  Vector psi = now_.psi;
-  if (!ik_.arm()) psi += dt * now_.psid + dt * dt / 2 * now_.psidd;
+  const auto& [from, psid, psidd] = now_.motors;
+  Vector psi = from;
+  if (!ik_.arm()) psi += dt * psid + dt * dt / 2 * psidd;
   const Vector expected = psi;
   const IkOutcome outcome = ik_.position(desired.position, time(step), psi);
   const auto size = [&](const Vector& move) { return move.cwiseQuotient(ik_.motor_scale()).norm(); };
-  const double move = size(psi - now_.psi);
+  const double move = size(psi - from);
   const bool far = outcome != IkOutcome::kSolved || move > 0.3 || size(psi - expected) > 0.1 * move + 1e-3;
   if (far && halvings > 0) {
     const IkOutcome half = try_advance((now_.step + step) / 2, halvings - 1);

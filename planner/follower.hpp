@@ -13,10 +13,11 @@ class Follower {
   Follower(InverseKinematics& ik, const Itinerary& itinerary, std::int64_t delay)
       : ik_(ik), itinerary_(itinerary), delay_(static_cast<double>(delay)) {}
 
+  /// A place on the path and the motors' motion there.
   struct Motion {
     double step = 0;
     PathPoint desired;
-    Vector psi, psid, psidd;
+    MotorMotion motors;
   };
 
   /// At the path's start, on the branch of home.

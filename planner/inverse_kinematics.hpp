@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "dynamics/procedure/procedure.hpp"
-#include "planner/itinerary.hpp"
+#include "planner/motion.hpp"
 #include "planner/three_axis_arm.hpp"
 
 namespace mixloop {

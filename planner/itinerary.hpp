@@ -5,16 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "planner/motion.hpp"
 #include "planner/path.hpp"
 
 namespace mixloop {
-
-/// Where the end effector shall be at one instant of a path.
-struct PathPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< m/s
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s^2
-};
 
 /// A duration in ticks; throws InputError("off_grid") when it is no whole number of them (to 1e-9 of itself),
 /// "too_large" when it is more than 2^30.

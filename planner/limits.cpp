@@ -26,8 +26,15 @@ LimitCheck::LimitCheck(const Model<double>& model, const PlanLimits& limits) : m
 }
 
 void LimitCheck::look(std::int64_t step, const Reference& reference, double t) {
-  for (std::size_t i = 0; i < limits_.velocity.size(); ++i)
-    compare(step, i, reference.psid[static_cast<Eigen::Index>(i)], limits_.velocity[i], false);
+  if (limits_.velocity.empty() && limits_.torque.empty()) return;
+  for (std::size_t i = 0; i < limits_.velocity.size(); ++i) {
+    const auto motor = static_cast<Eigen::Index>(i);
+    compare(step, i, reference.psid[motor], limits_.velocity[i], false);
+    if (step == last_step_ + 1) compare(step, i, (reference.psi[motor] - last_psi_[motor]) / (t - last_t_), limits_.velocity[i], false);
+  }
+  last_step_ = step;
+  last_t_ = t;
+  last_psi_ = reference.psi;
   if (limits_.torque.empty()) return;
   const auto& tau = inverse_dynamics<double>(model_, span_of(reference.psi), span_of(reference.psid), span_of(reference.psidd), t, ws_);
   for (std::size_t i = 0; i < limits_.torque.size(); ++i) compare(step, i, tau[static_cast<Eigen::Index>(i)], limits_.torque[i], true);

@@ -24,12 +24,14 @@ struct Excess {
   std::string message;  ///< "motor psi2 would turn at 120 rad/s; its limit is 100 rad/s"
 };
 
-/// Looks at references one by one and keeps the worst excess.
+/// Looks at references one by one and keeps the worst excess. Of two in a row the mean velocity between them
+/// counts too: a motor that has to jump from tick to tick is too fast, however slow it is at both.
 class LimitCheck {
  public:
   /// Throws InputError("wrong_size") or ("out_of_range") for limits that don't fit the model.
   LimitCheck(const Model<double>& model, const PlanLimits& limits);
 
+  /// `step` and its time t, s.
   void look(std::int64_t step, const Reference& reference, double t);
   const std::optional<Excess>& worst() const { return worst_; }
 
@@ -39,6 +41,9 @@ class LimitCheck {
   const Model<double>& model_;
   const PlanLimits& limits_;
   Workspace<double> ws_;
+  std::int64_t last_step_ = -2;
+  double last_t_ = 0;
+  Vector last_psi_;
   std::optional<Excess> worst_;
 };
 

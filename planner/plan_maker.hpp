@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "planner/follower.hpp"
 #include "planner/plan.hpp"
-#include "planner/singularity.hpp"
+#include "planner/refusal.hpp"
 
 namespace mixloop {
 
@@ -15,21 +14,16 @@ class PlanMaker {
   void make(Plan& plan);
 
  private:
-  void require_room(std::int64_t steps) const;
+  void require_room(double steps) const;
+  std::span<double> row(Plan& plan, std::int64_t index) const;
+  void write(const Follower::Motion& motion, double t, std::span<double> row);
   void follow(Plan& plan, std::int64_t delay);
-  void check_path(const Plan& plan, std::int64_t delay);
-  std::int64_t approach_ticks(const Plan& plan, const Vector& move) const;
+  void check_singularities(Plan& plan, std::int64_t delay);
+  void check_limits(Plan& plan, std::int64_t delay);
+  std::int64_t approach_ticks(Plan& plan, const Vector& move);
+  Vector fastest_on_path(Plan& plan) const;
   void approach(Plan& plan, const Vector& from, std::int64_t ticks);
   void rest_past_the_end(Plan& plan);
-  void write(Plan& plan, std::int64_t row, const Follower::Motion& motion, double t);
-
-  /// How far the point of a step is out of reach, m, 0 within it; and in words. `psi`: motors nearby.
-  double out_of_reach(double step, Vector psi);
-  std::string reach_text(double step, Vector psi);
-  [[noreturn]] void refuse_start(IkOutcome outcome, const Vector& nearest);
-  [[noreturn]] void refuse(IkOutcome outcome, Follower& follower, double step);
-  [[noreturn]] void refuse_singular(double step, const Vector& last, double t);
-  [[noreturn]] void refuse(const Passage& passage, double rate);
 
   const Model<double>& model_;
   const Path& path_;
@@ -37,6 +31,7 @@ class PlanMaker {
   Itinerary itinerary_;
   InverseKinematics ik_;
   SingularityMeasures measures_;
+  Refusal refusal_;
   bool timed_;                   ///< the constraints depend on time: no lap is like the other
   bool timed_loads_;             ///< there are torque limits, and loads that depend on time
   std::vector<double> samples_;  ///< measures at each step of the path

@@ -19,9 +19,9 @@ TEST(Follower, GoesTheSameWayByBothMethods) {
   for (int k = 0; k <= 1000; ++k) {
     ASSERT_EQ(left.advance(k), IkOutcome::kSolved);
     ASSERT_EQ(right.advance(k), IkOutcome::kSolved);
-    EXPECT_LT((left.now().psi - right.now().psi).norm(), 1e-11) << k;
-    EXPECT_LT((left.now().psid - right.now().psid).norm(), 1e-11 * (1 + left.now().psid.norm())) << k;
-    EXPECT_LT((left.now().psidd - right.now().psidd).norm(), 1e-11 * (1 + left.now().psidd.norm())) << k;
+    EXPECT_LT((left.now().motors.psi - right.now().motors.psi).norm(), 1e-11) << k;
+    EXPECT_LT((left.now().motors.psid - right.now().motors.psid).norm(), 1e-11 * (1 + left.now().motors.psid.norm())) << k;
+    EXPECT_LT((left.now().motors.psidd - right.now().motors.psidd).norm(), 1e-11 * (1 + left.now().motors.psidd.norm())) << k;
   }
 }
 
@@ -36,7 +36,7 @@ TEST(Follower, TakesCoarseGridsInSmallerSteps) {
   for (int k = 1; k <= 2; ++k) {
     ASSERT_EQ(left.advance(k), IkOutcome::kSolved);
     ASSERT_EQ(right.advance(k), IkOutcome::kSolved);
-    EXPECT_LT((left.now().psi - right.now().psi).norm(), 1e-11) << k;
+    EXPECT_LT((left.now().motors.psi - right.now().motors.psi).norm(), 1e-11) << k;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "planner/itinerary.hpp"
 #include "tests/oracles/wide.hpp"
 #include "tests/planner/mechanisms.hpp"
 #include "tests/support/bad_input.hpp"

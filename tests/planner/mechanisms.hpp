@@ -78,6 +78,19 @@ end_effector: {frame: 3}
 )";
 }
 
+/// A slide that turns about the origin of the plane x, y; at home it stands out by 1 m along x.
+inline const char* const kTurningSlide = R"(
+motors: {a: rotary, r: linear}
+coordinates: [angle, out]
+constraints: {angle: a, out: r}
+transforms:
+  - {from: 0, to: 1, theta: 90 deg + angle, alpha: 90 deg}
+  - {from: 1, to: 2, s: out}
+bodies: [{frame: 2, mass: 1 kg}]
+end_effector: {frame: 2, axes: [x, y]}
+home: {r: 1 m}
+)";
+
 inline Path path_from(const std::string& text, const Model<double>& model) {
   return read_path(parse_document(text, "path.yaml"), *model.scene);
 }

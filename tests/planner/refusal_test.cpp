@@ -32,8 +32,8 @@ TEST(Refusal, OfAPathOutOfReachSaysWhereAndHowFar) {
 }
 
 TEST(Refusal, OfAPathOutOfReachKnowsNoArm) {
-  expect_refusal(model_from(kPlanarArm), line("[1, 0]", "[3, 0]"), {}, "unreachable", {"0.5 s into the path", "0.5 of the line", "1 m away"});
-  expect_refusal(model_from(kPlanarArm), line("[3, 0]", "[1, 0]"), {}, "unreachable", {"the path's start", "1 m away"});
+  expect_refusal(model_from(kPlanarArm), line("[1, 0]", "[3, 0]"), {}, "unreachable", {"0.5 s into the path", "0.5 of the line", "1 m from the nearest"});
+  expect_refusal(model_from(kPlanarArm), line("[3, 0]", "[1, 0]"), {}, "unreachable", {"the path's start", "1 m from the nearest"});
 }
 
 TEST(Refusal, OfAPathOverTheBaseAxis) {
@@ -59,6 +59,24 @@ TEST(Refusal, OfAPathThroughTheFlatParallelogram) {
 // The same scene without names: the Jacobian tells of the axis.
 TEST(Refusal, OfASingularPathThatTheSceneDoesNotName) {
   expect_refusal(paper_robot({{"singularities", "{}"}}), line("[0.3, 0, 0.8]", "[-0.3, 0, 0.3]", "duration: 1.001 s"), {}, "singular_path", {"of the end effector's Jacobian"});
+}
+
+// Newton's method goes on through the axis with the slide drawn back to the other side: another branch. Beside the
+// axis it has to turn by half a turn within a tick; 2 mm away that is seen and allowed.
+TEST(Refusal, OfASingularPathByTheGeneralMethod) {
+  const auto model = model_from(kTurningSlide);
+  for (const char* duration : {"duration: 1 s", "duration: 1.001 s"})
+    expect_refusal(model, line("[1, 0]", "[-1, 0]", duration), {}, "crosses_branch", {"0.5 of the line", "of the end effector's Jacobian"});
+  for (const char* duration : {"duration: 1 s", "duration: 1.001 s", "duration: 0.1 s"})
+    expect_refusal(model, line("[1, 0.0005]", "[-1, 0.0005]", duration), {}, "singular_path", {"0.5 of the line", "of the end effector's Jacobian", "0.0005"});
+  EXPECT_NO_THROW(Plan(model, path_from(line("[1, 0.002]", "[-1, 0.002]"), model), {}));
+}
+
+// At 2 mm from the axis the slide's motor turns at 4 m/s / 2 mm = 2000 rad/s; a tick of 1 ms is longer than that
+// lasts, and the references at the ticks beside it are slower.
+TEST(Refusal, OfAJumpBetweenTicks) {
+  const auto model = model_from(kTurningSlide);
+  expect_refusal(model, line("[1, 0.0015]", "[-1, 0.0015]", "duration: 0.101 s"), {.limits = {.velocity = {2500, 1000}}}, "over_limit", {"the motor a"});
 }
 
 // A path that home's elbow reaches, but the parallelogram of home does not: its start lies across.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "planner/refusal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mixloop {
+
+std::string Refusal::where(double step) const {
+  return fmt::format("{:.6g} s into the path, {}, ", step / itinerary_.step_rate(), itinerary_.describe(step));
+}
+
+std::string Refusal::where_before(double step, double duration) const {
+  return fmt::format("{:.6g} s into the move to the path's start, which takes {:.6g} s, ", step / itinerary_.step_rate(), duration);
+}
+
+std::string Refusal::text(const Passage& passage) const {
+  const std::string name = measures_.name(passage.measure);
+  if (passage.crosses) return "it crosses the singularity " + name;
+  return fmt::format("it passes through the singularity {}, or too near to it ({:.2g} of its measure at home)", name, passage.value);
+}
+
+void Refusal::passage(const Passage& passage) const {
+  throw InputError(passage.crosses ? "crosses_branch" : "singular_path", itinerary_.place(passage.step), where(passage.step) + text(passage));
+}
+
+void Refusal::excess(const Excess& excess) const {
+  const auto step = static_cast<double>(excess.step);
+  throw InputError("over_limit", itinerary_.place(step), where(step) + excess.message);
+}
+
+void Refusal::passage_before(const Passage& passage, double duration) const {
+  throw InputError(passage.crosses ? "crosses_branch" : "singular_path", path_.place, where_before(passage.step, duration) + text(passage));
+}
+
+void Refusal::excess_before(const Excess& excess, double duration) const {
+  throw InputError("over_limit", path_.place, where_before(static_cast<double>(excess.step), duration) + excess.message + "; a longer 'approach' is gentler");
+}
+
+// Which singularity it is: that whose measure is least at the last pose before it.
+void Refusal::singular(double step, const Vector& last, double t) const {
+  std::vector<double> values(measures_.count());
+  measures_.evaluate(last, t, values.data());
+  const auto least = std::min_element(values.begin(), values.end());
+  passage({step, static_cast<std::size_t>(least - values.begin()), std::max(*least, 0.0), false});
+}
+
+void Refusal::no_start(IkOutcome outcome, const Vector& nearest, double t) const {
+  const std::string start = "the path's start, " + itinerary_.describe(0) + ", ";
+  if (outcome == IkOutcome::kOtherBranch) throw InputError("crosses_branch", path_.vias[0].place, start + "can be reached only on another branch than home's");
+  if (outcome == IkOutcome::kSingular) singular(0, nearest, t);
+  throw InputError("unreachable", path_.vias[0].place, start + "is out of reach: " + reach_text(0, t, nearest));
+}
+
+void Refusal::no_way(IkOutcome outcome, Follower& follower, double step) const {
+  const double end = follower.limit(step);
+  const Vector last = follower.now().motors.psi;
+  if (outcome == IkOutcome::kSingular) singular(end, last, follower.time(end));
+  double farthest = step, most = 0;
+  for (int i = 0; i <= 256; ++i) {
+    const double at = step + (static_cast<double>(itinerary_.lap_steps()) - step) * i / 256;
+    const double excess = out_of_reach(at, follower.time(at), last);
+    if (excess <= most) continue;
+    most = excess;
+    farthest = at;
+  }
+  throw InputError("unreachable", itinerary_.place(end),
+                   where(end) + "it leaves what can be reached; " + where(farthest) + "it is " + reach_text(farthest, follower.time(farthest), last));
+}
+
+/// How far the point of a step is out of reach, m; 0 within it. `nearby`: motors to start a search from.
+double Refusal::out_of_reach(double step, double t, Vector nearby) const {
+  const Eigen::Vector3d point = itinerary_.at(step).position;
+  if (!ik_.arm()) return ik_.position(point, t, nearby) == IkOutcome::kSolved ? 0 : ik_.miss(point, t, nearby);
+  const ThreeAxisArm& arm = *ik_.arm();
+  const ArmReach reach = reach_of(arm, point);
+  if (reach.beside < 0) return std::abs(arm.lateral) - point.head<2>().norm();
+  return std::max({0.0, reach.distance - arm.farthest(), arm.nearest() - reach.distance});
+}
+
+std::string Refusal::reach_text(double step, double t, Vector nearby) const {
+  const Eigen::Vector3d point = itinerary_.at(step).position;
+  if (!ik_.arm()) {
+    ik_.position(point, t, nearby);
+    return fmt::format("{:.4g} m from the nearest place that a search found", ik_.miss(point, t, nearby));
+  }
+  const ThreeAxisArm& arm = *ik_.arm();
+  const ArmReach reach = reach_of(arm, point);
+  if (reach.beside < 0) return fmt::format("{:.6g} m from the base axis; the arm's plane is {:.6g} m from it", point.head<2>().norm(), std::abs(arm.lateral));
+  return fmt::format("{:.6g} m from the shoulder axis; the arm reaches from {:.6g} to {:.6g} m", reach.distance, arm.nearest(), arm.farthest());
+}
+
+}  // namespace mixloop
