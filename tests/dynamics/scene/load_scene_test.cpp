@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "tests/support/bad_input.hpp"
@@ -175,9 +177,27 @@ TEST(ParameterValues, AreCheckedAsTheScenes) {
   EXPECT_STREQ(refused("{bob: -3 kg}").what(), "f:1:1: with these parameters, 'weight' has a mass of -3 kg; expected 0 or more");
 }
 
+/// What users are told.
+const std::string& documentation() {
+  static const std::string text = [] {
+    std::ifstream stream(MIXLOOP_DOCS "/scenes.md");
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  }();
+  return text;
+}
+
+TEST(SceneDocumentation, ItsFirstExampleLoads) {
+  const std::string fence = "```yaml\n";
+  const auto begin = documentation().find(fence) + fence.size();
+  const Scene scene = loaded(documentation().substr(begin, documentation().find("```", begin) - begin), "scenes.md");
+  EXPECT_EQ(scene.n(), 1);
+  EXPECT_EQ(number(scene.transforms[0].a), 0.3);
+}
+
 class RefusedScene : public testing::TestWithParam<BadInput> {};
 
 TEST_P(RefusedScene, WithItsPlace) {
+  EXPECT_NE(documentation().find("| `" + std::string(GetParam().code) + "` |"), std::string::npos) << "not in docs/scenes.md";
   expect_refused(GetParam(), [](const std::string& text, const std::string& file) { loaded(text, file); });
 }
 
