@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "runtime/bus.hpp"
 #include "tests/runtime/processes.hpp"
 #include "tests/runtime/toy_loop.hpp"
 #include "tests/support/allocation_counter.hpp"
@@ -100,6 +102,82 @@ TEST(Lockstep, survives_processes_that_are_stopped_and_continued) {
     victim.signal(SIGCONT);
   }
   finish_all(children, kRoles);
+}
+
+/// A process of nobody's that hears everything and answers with what must do no harm: random bytes, messages
+/// cut short, too long, of another session, n, type or config, with NaN, from the past.
+class Stranger {
+ public:
+  Stranger() {
+    for (const char* name : {"STATE", "REFERENCE", "COMMAND", "SIM_CONTROL"}) {
+      channels_.push_back(bus_.channel(name));
+      bus_.subscribe<&Stranger::remember>(channels_.back(), this);
+    }
+  }
+
+  /// About three thousand times a second: it is to disturb, not to drown.
+  void annoy_until(const std::function<bool()>& over) {
+    const StopSwitch never;
+    for (Instant next = now(); !over();) {
+      if (bus_.wait(next, never) == Wake::message) continue;
+      next = now() + 300us;
+      if (!heard_.empty()) annoy();
+    }
+  }
+
+ private:
+  // The fields of the header that make a message another one's, by their offset.
+  static constexpr std::size_t kFingerprint = 0, kN = 8, kSession = 28, kConfig = 36, kNumbers = 44;
+
+  void remember(Bytes bytes) {
+    if (heard_.size() < 4000 && bytes.size() >= kNumbers + 8) heard_.emplace_back(bytes.begin(), bytes.end());
+  }
+  void annoy() {
+    std::vector<std::uint8_t> bytes = heard_[random_() % heard_.size()];
+    const auto spoil = [&](std::size_t at) {
+      bytes[at + random_() % 4] ^= static_cast<std::uint8_t>(1 + random_() % 255);
+    };
+    switch (random_() % 8) {
+      case 0:
+        bytes.resize(random_() % bytes.size());
+        break;
+      case 1:
+        bytes.resize(bytes.size() + 1 + random_() % 9000);
+        break;
+      case 2:
+        spoil(kFingerprint);
+        break;
+      case 3:
+        spoil(kN);
+        break;
+      case 4:
+        spoil(kSession);
+        break;
+      case 5:
+        spoil(kConfig);
+        break;
+      case 6:
+        std::fill_n(bytes.begin() + kNumbers, 8, std::uint8_t{0xff});
+        break;
+      default:
+        break;  // as it was: a replay
+    }
+    bus_.publish(channels_[random_() % channels_.size()], bytes);
+  }
+
+  Bus bus_;
+  std::vector<std::string> channels_;
+  std::vector<std::vector<std::uint8_t>> heard_;
+  std::mt19937_64 random_{5};
+};
+
+TEST(Lockstep, isnt_disturbed_by_strangers) {
+  std::vector<ChildProcess> children;
+  for (const std::string& role : kRoles) children.push_back(start(role, kTicks, {}, {"42", "2"}));
+  Stranger stranger;
+  stranger.annoy_until([&] { return children[0].ended(); });
+  const auto reports = finish_all(children, kRoles);
+  for (const std::string& role : kRoles) EXPECT_GT(reports[role].value("rejected", 0), 50) << role;
 }
 
 TEST(Lockstep, allocates_nothing_per_tick_in_any_of_the_three) {

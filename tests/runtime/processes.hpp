@@ -59,6 +59,12 @@ class ChildProcess {
 
   void signal(int number) const { kill(pid_, number); }
 
+  bool ended() const {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == pid_;
+  }
+
   /// The exit status, or 128 + the signal that ended it, or -1 after the limit.
   int wait(std::chrono::milliseconds limit) {
     const auto until = std::chrono::steady_clock::now() + limit;
