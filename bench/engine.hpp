@@ -26,6 +26,8 @@ struct Engine {
   double tolerance = 1e-12;  ///< relative error against the oracle that it must keep
   std::function<void(const State&, Triple& psidd)> forward;
   std::function<void(const State&, Symmetric& M)> mass;
+  std::function<void(const State&, Triple& force)> mass_times;  ///< M a, with a = state.tau
+  std::function<void(const State&, Triple& psidd, Triple& force)> forward_and_mass_times;
   std::function<void(const std::vector<State>&, std::vector<Triple>& psidd)> forward_all;
 };
 

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <random>
 #include <string>
-#include <thread>
 
 #include "bench/engine.hpp"
 #include "bench/machine.hpp"
@@ -20,6 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int kStates = 256;
+constexpr const char* kYardstick = "hand-tuned, 3 inlined sincos";
 
 std::vector<State> seeded_states() {
   std::mt19937_64 random(20260415);
@@ -42,7 +42,8 @@ std::vector<Triple> oracle_accelerations(const std::vector<State>& states) {
   for (const State& state : states) {
     const auto wide = [](const Triple& x) { return Vector(Wide(x[0]), Wide(x[1]), Wide(x[2])); };
     const Vector psidd = robot.forward_dynamics(wide(state.psi), wide(state.psid), wide(state.tau));
-    expected.push_back({static_cast<double>(psidd[0]), static_cast<double>(psidd[1]), static_cast<double>(psidd[2])});
+    expected.push_back(
+        {static_cast<double>(psidd[0]), static_cast<double>(psidd[1]), static_cast<double>(psidd[2])});
   }
   return expected;
 }
@@ -85,48 +86,58 @@ Error relative_error(const std::vector<Row>& actual, const std::vector<Row>& exp
 
 struct Row {
   Error forward_error, mass_error;
-  double forward = INFINITY, chained = INFINITY, mass = INFINITY;  // ns
+  // ns an evaluation, the least of all passes
+  double forward = INFINITY, chained = INFINITY, mass = INFINITY, mass_times = INFINITY, both = INFINITY;
+  std::vector<double> ratios;  // of forward to the yardstick's pass just before it
 };
 
 void keep(const auto& value) { asm volatile("" : : "m"(value) : "memory"); }
 
-double ns_each(Clock::time_point begin, Clock::time_point end, int evaluations) {
-  return std::chrono::duration<double, std::nano>(end - begin).count() / evaluations;
+/// Lowers `least` to the time of one of `count` evaluations; returns that time.
+double time_pass(double& least, int count, auto&& evaluations) {
+  const auto begin = Clock::now();
+  evaluations();
+  const double ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / count;
+  least = std::min(least, ns);
+  return ns;
 }
 
-/// One pass over `count` states: independent ones, then each started from the one before.
-void time_once(const Engine& engine, const std::vector<State>& states, int count, Row& row) {
-  Triple psidd{};
-  Symmetric M{};
+/// Forward dynamics of independent states.
+double time_forward(const Engine& engine, const std::vector<State>& states, int count, double& least) {
   if (engine.forward_all) {
     std::vector<Triple> nothing;
-    const auto begin = Clock::now();
-    engine.forward_all(states, nothing);
-    row.forward = std::min(row.forward, ns_each(begin, Clock::now(), kStates));
-    return;
+    return time_pass(least, kStates, [&] { engine.forward_all(states, nothing); });
   }
-  auto begin = Clock::now();
-  for (int i = 0; i < count; ++i) {
-    engine.forward(states[i], psidd);
-    keep(psidd);
-  }
-  row.forward = std::min(row.forward, ns_each(begin, Clock::now(), count));
+  Triple psidd{};
+  return time_pass(least, count, [&] {
+    for (int i = 0; i < count; ++i) engine.forward(states[static_cast<std::size_t>(i)], psidd), keep(psidd);
+  });
+}
+
+/// The rest over `count` states: each evaluation started from the one before, then M and M a.
+void time_others(const Engine& engine, const std::vector<State>& states, int count, Row& row) {
+  if (engine.forward_all) return;
+  Triple psidd{}, force{};
+  Symmetric M{};
+  const auto each = [&](double& least, auto&& evaluation) {
+    time_pass(least, count, [&] {
+      for (int i = 0; i < count; ++i) evaluation(states[static_cast<std::size_t>(i)]);
+    });
+  };
   State next = states[0];
-  begin = Clock::now();
-  for (int i = 0; i < count; ++i) {
+  each(row.chained, [&](const State& state) {
     engine.forward(next, psidd);
-    next = states[i];
-    for (int k = 0; k < 3; ++k) next.psi[k] += 1e-12 * psidd[k];
-  }
+    next = state;
+    for (std::size_t k = 0; k < 3; ++k) next.psi[k] += 1e-12 * psidd[k];
+  });
   keep(next);
-  row.chained = std::min(row.chained, ns_each(begin, Clock::now(), count));
-  if (!engine.mass) return;
-  begin = Clock::now();
-  for (int i = 0; i < count; ++i) {
-    engine.mass(states[i], M);
-    keep(M);
-  }
-  row.mass = std::min(row.mass, ns_each(begin, Clock::now(), count));
+  if (engine.mass) each(row.mass, [&](const State& state) { engine.mass(state, M), keep(M); });
+  if (engine.mass_times)
+    each(row.mass_times, [&](const State& state) { engine.mass_times(state, force), keep(force); });
+  if (engine.forward_and_mass_times)
+    each(row.both, [&](const State& state) {
+      engine.forward_and_mass_times(state, psidd, force), keep(psidd), keep(force);
+    });
 }
 
 Row verified(const Engine& engine, const std::vector<State>& states, const std::vector<Triple>& psidd,
@@ -153,28 +164,38 @@ std::string cell(double value, const char* format) {
   return text;
 }
 
-void print_table(const Engines& engines, const std::vector<Row>& rows, double yardstick) {
-  std::printf("%s\n\n", machine_description().c_str());
-  std::printf("| engine | forward dynamics, ns | over hand-tuned | chained, ns | M only, ns | worst error | median |\n");
-  std::printf("|---|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& row = rows[i];
-    std::printf("| %s | %s | %s | %s | %s | %s | %s |\n", engines[i].name.c_str(),
-                cell(row.forward, "%.1f").c_str(), cell(row.forward / yardstick, "%.2f").c_str(),
-                cell(row.chained, "%.1f").c_str(), cell(row.mass, "%.1f").c_str(),
-                cell(row.forward_error.worst, "%.0e").c_str(), cell(row.forward_error.median, "%.0e").c_str());
-  }
-  std::printf(
-      "\nWorst and median: relative error of psi'' over %d seeded states against the closed form in 113 bits.\n"
-      "Independent states overlap in the processor; chained ones wait for each other, as an integrator's do.\n"
-      "Over hand-tuned: over the row `hand-tuned, 3 inlined sincos`.\n",
-      kStates);
+std::string ratio_cell(std::vector<double> ratios) {
+  if (ratios.empty()) return "";
+  std::sort(ratios.begin(), ratios.end());
+  return cell(ratios[ratios.size() / 2], "%.2f");
 }
 
-int run(int repeats) {
-  const auto states = seeded_states();
-  const auto psidd = oracle_accelerations(states);
-  const auto masses = oracle_masses(states);
+void print_table(const Engines& engines, const std::vector<Row>& rows) {
+  std::printf("%s\n\n", machine_description().c_str());
+  std::printf(
+      "| engine | forward dynamics, ns | over hand-tuned | chained, ns | M, ns | M a, ns | both, ns "
+      "| worst error | median |\n|---|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    std::string line =
+        "| " + engines[i].name + " | " + cell(row.forward, "%.1f") + " | " + ratio_cell(row.ratios);
+    for (const double ns : {row.chained, row.mass, row.mass_times, row.both})
+      line += " | " + cell(ns, "%.1f");
+    for (const double error : {row.forward_error.worst, row.forward_error.median})
+      line += " | " + cell(error, "%.0e");
+    std::printf("%s |\n", line.c_str());
+  }
+  std::printf(
+      "\nTimes: the least of all passes. Over hand-tuned: median ratio to a pass of `%s` just before.\n"
+      "Independent states overlap in the processor; chained ones wait for each other, as an integrator's "
+      "do.\n"
+      "Both: psi'' and M a, the feed-forward, in one evaluation. Errors: psi'' over %d seeded states, "
+      "relative,\n"
+      "against the closed form in 113 bits.\n",
+      kYardstick, kStates);
+}
+
+Engines all_engines() {
   Engines engines;
   add_hand_tuned(engines);
   add_hand_tuned_contracted(engines);
@@ -182,8 +203,13 @@ int run(int repeats) {
   add_textbook(engines);
   add_mujoco(engines);
   add_simbody(engines);
+  return engines;
+}
 
-  std::vector<Row> rows;
+/// False, with the offender on stderr, unless every engine keeps its tolerance.
+bool verify(const Engines& engines, const std::vector<State>& states, std::vector<Row>& rows) {
+  const auto psidd = oracle_accelerations(states);
+  const auto masses = oracle_masses(states);
   bool held = true;
   for (const Engine& engine : engines) {
     rows.push_back(verified(engine, states, psidd, masses));
@@ -193,22 +219,35 @@ int run(int repeats) {
     std::fprintf(stderr, "%s: error %.3g (M %.3g) is over its tolerance %.3g\n", engine.name.c_str(),
                  row.forward_error.worst, row.mass_error.worst, engine.tolerance);
   }
-  if (!held) return 1;
+  return held;
+}
+
+int run(int repeats) {
+  const auto states = seeded_states();
+  const Engines engines = all_engines();
+  std::vector<Row> rows;
+  if (!verify(engines, states, rows)) return 1;
+  const Engine& yardstick = *std::find_if(engines.begin(), engines.end(),
+                                          [](const Engine& engine) { return engine.name == kYardstick; });
 
   // Slow engines take fewer states a pass, so that all are interleaved at about the same pace.
   std::vector<int> counts;
-  for (std::size_t i = 0; i < engines.size(); ++i) {
-    time_once(engines[i], states, 16, rows[i]);
-    const double fits = 20000.0 / std::max(1.0, rows[i].forward);
-    counts.push_back(std::clamp(static_cast<int>(fits), 8, kStates));
+  double unused = INFINITY;
+  for (const Engine& engine : engines) {
+    double ns = INFINITY;
+    time_forward(engine, states, 16, ns);
+    counts.push_back(std::clamp(static_cast<int>(20000.0 / std::max(1.0, ns)), 8, kStates));
   }
   for (int repeat = 0; repeat < repeats; ++repeat)
-    for (std::size_t i = 0; i < engines.size(); ++i) time_once(engines[i], states, counts[i], rows[i]);
-
-  double yardstick = INFINITY;
-  for (std::size_t i = 0; i < engines.size(); ++i)
-    if (engines[i].name == "hand-tuned, 3 inlined sincos") yardstick = rows[i].forward;
-  print_table(engines, rows, yardstick);
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+      // Each after a pass that warms its code and the branch predictors.
+      time_forward(yardstick, states, kStates, unused);
+      const double reference = time_forward(yardstick, states, kStates, unused);
+      time_forward(engines[i], states, counts[i], rows[i].forward);
+      rows[i].ratios.push_back(time_forward(engines[i], states, counts[i], rows[i].forward) / reference);
+      time_others(engines[i], states, counts[i], rows[i]);
+    }
+  print_table(engines, rows);
   return 0;
 }
 
@@ -216,6 +255,6 @@ int run(int repeats) {
 }  // namespace mixloop::bench
 
 int main(int argc, char** argv) {
-  const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 2000;
+  const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1000;
   return mixloop::bench::run(repeats);
 }

@@ -8,8 +8,9 @@
 //          + 2 P cos a cos c + 2 Q cos(a - beta) cos b,
 //   N couples a with c by P cos(a - c) and a with b by Q cos(a - beta - b),
 // the products of sines and cosines that J, its gradient, N and the centrifugal terms need are the same
-// eight: 125 operations and three sine/cosine pairs for forward dynamics, 51 for M, 59 for M a.
-// J is kept as J / 8192 and P, Q as P / 4096, Q / 4096, which makes most factors one.
+// eight: 125 operations and three sine/cosine pairs for forward dynamics, 51 for M,
+// 59 for M a, 141 for forward dynamics and M a together. J is kept as J / 8192 and P, Q as P / 4096, Q /
+// 4096, which makes most factors one.
 #pragma once
 
 namespace mixloop::hand_tuned {
@@ -17,10 +18,10 @@ namespace mixloop::hand_tuned {
 /// All that the evaluation needs to know, lumped. Constant expressions, so that with the payload known
 /// they are folded into the code; made once at run time they carry a payload that may change.
 struct Lumped {
-  double j0, k1, k2, k6, k7;           // J / 8192
-  double p, q, q_cos, q_sin;           // P / 4096; Q / 4096 (1, cos beta, sin beta)
-  double n_yy, n_yz, n_zz;             // constant part of N / 256
-  double g_cos_a, g_sin_a, g_b, g_c;   // gravity / 16
+  double j0, k1, k2, k6, k7;          // J / 8192
+  double p, q, q_cos, q_sin;          // P / 4096; Q / 4096 (1, cos beta, sin beta)
+  double n_yy, n_yz, n_zz;            // constant part of N / 256
+  double g_cos_a, g_sin_a, g_b, g_c;  // gravity / 16
 };
 
 constexpr Lumped lump(double payload, double gravity = 9.81) {
@@ -139,8 +140,8 @@ struct Bias {
 };
 
 template <class V>
-inline Bias<V> bias_in_blocks(const Lumped& n, const Angles<V>& s, const Shared<V>& m, const V* psid, const V& y,
-                              const V& z) {
+inline Bias<V> bias_in_blocks(const Lumped& n, const Angles<V>& s, const Shared<V>& m, const V* psid,
+                              const V& y, const V& z) {
   const V c = 3.0 * y - 2.0 * z;
   // Minus the gradient of J / 8192 by a, b and c.
   const V Ja = (m.P3 + m.Q3) + (n.k2 + ((2.0 * n.k1) * m.s2 - (2.0 * n.k2) * m.c2));
@@ -155,11 +156,7 @@ inline Bias<V> bias_in_blocks(const Lumped& n, const Angles<V>& s, const Shared<
 
 /// psidd of M psidd + h = tau.
 template <class V>
-inline void forward_dynamics(const Lumped& n, const Angles<V>& s, const V* psid, const V* tau, V* psidd) {
-  const V x = 0.375 * psid[0], y = x - psid[1], z = x - psid[2];
-  const Shared<V> shared(n, s);
-  const Blocks<V> M = shared.mass(n, s);
-  const Bias<V> h = bias_in_blocks(n, s, shared, psid, y, z);
+inline void solve(const Blocks<V>& M, const Bias<V>& h, const V* tau, V* psidd) {
   const V torque = 0.0078125 * tau[0] + 0.0029296875 * (tau[1] + tau[2]);
   const V fy = tau[1] + h.y, fz = tau[2] + h.z;  // minus the forces on y and z
   const V scale = 1.0 / (M.yy * M.zz - M.yz * M.yz);
@@ -167,6 +164,13 @@ inline void forward_dynamics(const Lumped& n, const Angles<V>& s, const V* psid,
   psidd[0] = psi1;
   psidd[1] = up + (M.zz * fy - M.yz * fz) * scale;
   psidd[2] = up + (M.yy * fz - M.yz * fy) * scale;
+}
+
+template <class V>
+inline void forward_dynamics(const Lumped& n, const Angles<V>& s, const V* psid, const V* tau, V* psidd) {
+  const V x = 0.375 * psid[0], y = x - psid[1], z = x - psid[2];
+  const Shared<V> shared(n, s);
+  solve(shared.mass(n, s), bias_in_blocks(n, s, shared, psid, y, z), tau, psidd);
 }
 
 /// M a, the feed-forward of (33).
@@ -182,6 +186,17 @@ inline void mass_times(const Blocks<V>& M, const V* a, V* force) {
 template <class V>
 inline void mass_times(const Lumped& n, const Angles<V>& s, const V* a, V* force) {
   mass_times(Shared<V>(n, s).mass(n, s), a, force);
+}
+
+/// Both, from the same blocks.
+template <class V>
+inline void forward_dynamics_and_mass_times(const Lumped& n, const Angles<V>& s, const V* psid, const V* tau,
+                                            const V* a, V* psidd, V* force) {
+  const V x = 0.375 * psid[0], y = x - psid[1], z = x - psid[2];
+  const Shared<V> shared(n, s);
+  const Blocks<V> M = shared.mass(n, s);
+  solve(M, bias_in_blocks(n, s, shared, psid, y, z), tau, psidd);
+  mass_times(M, a, force);
 }
 
 /// M as 11, 12, 13, 22, 23, 33.

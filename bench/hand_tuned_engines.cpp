@@ -23,36 +23,46 @@ constexpr auto kInlinedSincos = [](double x, double* sine, double* cosine) {
   *cosine = c[0];
 };
 
+constexpr auto kProgramsSincos = [](double x, double* sine, double* cosine) {
+  mixloop_sincos::sincos(x, sine, cosine);
+};
+
 constexpr auto kThreeFromLibrary = [](const double* psi) { return three_pairs(psi, kLibrarySincos); };
 constexpr auto kTwoFromLibrary = [](const double* psi) { return two_pairs(psi, kLibrarySincos); };
 constexpr auto kThreeInlined = [](const double* psi) { return three_pairs(psi, kInlinedSincos); };
 constexpr auto kTwoInlined = [](const double* psi) { return two_pairs(psi, kInlinedSincos); };
 
-template <class Angles>
-Engine folded(std::string name, Angles angles) {
-  Engine engine;
-  engine.name = std::move(name);
-  engine.forward = [angles](const State& state, Triple& psidd) {
-    forward_dynamics(kFolded, angles(state.psi.data()), state.psid.data(), state.tau.data(), psidd.data());
+constexpr auto kThreeOfThePrograms = [](const double* psi) { return three_pairs(psi, kProgramsSincos); };
+
+/// `n` are the folded numbers or ones made at run time.
+template <class Numbers, class Angles>
+Engine engine(std::string name, Numbers n, Angles angles) {
+  Engine made;
+  made.name = std::move(name);
+  made.forward = [=](const State& state, Triple& psidd) {
+    forward_dynamics<double>(n, angles(state.psi.data()), state.psid.data(), state.tau.data(), psidd.data());
   };
-  engine.mass = [angles](const State& state, Symmetric& M) {
-    mass_matrix(kFolded, angles(state.psi.data()), M.data());
+  made.mass = [=](const State& state, Symmetric& M) {
+    mass_matrix<double>(n, angles(state.psi.data()), M.data());
   };
-  return engine;
+  made.mass_times = [=](const State& state, Triple& force) {
+    mass_times<double>(n, angles(state.psi.data()), state.tau.data(), force.data());
+  };
+  made.forward_and_mass_times = [=](const State& state, Triple& psidd, Triple& force) {
+    forward_dynamics_and_mass_times<double>(n, angles(state.psi.data()), state.psid.data(), state.tau.data(),
+                                            state.tau.data(), psidd.data(), force.data());
+  };
+  return made;
 }
 
-template <class Angles>
-Engine with_payload_parameter(std::string name, Angles angles) {
+/// Converts to the folded numbers: a stateless type, so that they stay constants in the code.
+struct Folded {
+  constexpr operator const Lumped&() const { return kFolded; }  // NOLINT(google-explicit-constructor)
+};
+
+Lumped unknown_payload() {
   volatile double payload = kPayload;  // unknown to the compiler
-  Engine engine;
-  engine.name = std::move(name);
-  engine.forward = [angles, n = lump(payload, kGravity)](const State& state, Triple& psidd) {
-    forward_dynamics(n, angles(state.psi.data()), state.psid.data(), state.tau.data(), psidd.data());
-  };
-  engine.mass = [angles, n = lump(payload, kGravity)](const State& state, Symmetric& M) {
-    mass_matrix(n, angles(state.psi.data()), M.data());
-  };
-  return engine;
+  return lump(payload, kGravity);
 }
 
 Engine vectors_inside() {
@@ -91,7 +101,8 @@ Engine in_lanes(std::string name) {
         }
     }
     for (Block& block : blocks)
-      forward_dynamics(kFolded, three_pairs(block.psi, lane_sincos<lanes>), block.psid, block.tau, block.psidd);
+      forward_dynamics(kFolded, three_pairs(block.psi, lane_sincos<lanes>), block.psid, block.tau,
+                       block.psidd);
     if (psidd.empty()) return;  // only timed
     for (std::size_t i = 0; i < states.size(); ++i)
       for (int k = 0; k < 3; ++k) psidd[i][k] = blocks[i / lanes].psidd[k][i % lanes];
@@ -112,11 +123,12 @@ void add_hand_tuned(Engines& engines) {
     engine.name = family + engine.name;
     engines.push_back(std::move(engine));
   };
-  add(folded("3 C library sincos", kThreeFromLibrary));
-  add(folded("2 C library sincos", kTwoFromLibrary));
-  add(folded("3 inlined sincos", kThreeInlined));
-  add(folded("2 inlined sincos", kTwoInlined));
-  add(with_payload_parameter("3 inlined sincos, payload a parameter", kThreeInlined));
+  add(engine("3 C library sincos", Folded{}, kThreeFromLibrary));
+  add(engine("2 C library sincos", Folded{}, kTwoFromLibrary));
+  add(engine("3 inlined sincos", Folded{}, kThreeInlined));
+  add(engine("2 inlined sincos", Folded{}, kTwoInlined));
+  add(engine("3 of the programs' sincos", Folded{}, kThreeOfThePrograms));
+  add(engine("3 inlined sincos, payload a parameter", unknown_payload(), kThreeInlined));
   add(vectors_inside());
   add(in_lanes<4>("4 lanes"));
   add(in_lanes<8>("8 lanes"));

@@ -22,9 +22,9 @@ struct PairedAngles {
   Pair s_near, c_near, s_far, c_far;
 
   explicit PairedAngles(const double* psi) {
-    const Quad angle = ((0.0234375 * psi[0] + Quad{0, -kBeta, kOffsetC, 0}) -
-                        psi[1] * Quad{0.0625, 0.0625, 0.1875, 0}) +
-                       psi[2] * Quad{0, 0, 0.125, -0.0625};
+    const Quad angle =
+        ((0.0234375 * psi[0] + Quad{0, -kBeta, kOffsetC, 0}) - psi[1] * Quad{0.0625, 0.0625, 0.1875, 0}) +
+        psi[2] * Quad{0, 0, 0.125, -0.0625};
     Quad s, c;
     lane_sincos<4>(angle, &s, &c);
     s_near = lower(s), c_near = lower(c), s_far = upper(s), c_far = upper(c);
@@ -75,8 +75,7 @@ inline void paired_forward_dynamics(const Lumped& n, const double* psi, const do
   const Pair Jcb = (m.t + m.t) * e.s_far + m.cs;
   const Pair swing = m.sc - m.cs;
   const Pair H = (spin * Jcb - swing * (y * y)) + Pair{n.g_c, n.g_b} * e.c_far;
-  const double Ha =
-      (spin * Ja + sum(swing * (rate * rate))) + (n.g_cos_a * m.ca + n.g_sin_a * e.s_near[0]);
+  const double Ha = (spin * Ja + sum(swing * (rate * rate))) + (n.g_cos_a * m.ca + n.g_sin_a * e.s_near[0]);
   const double fy = tau[1] + (Ha + 3.0 * H[0]), fz = tau[2] + (H[1] - 2.0 * H[0]);
   const double J_rate = (0.0625 * psid[0]) * (Ja * y + sum(Jcb * rate));
   const double torque = 0.0078125 * tau[0] + 0.0029296875 * (tau[1] + tau[2]);

@@ -68,6 +68,9 @@ TEST(HandTuned, EveryVariantAgreesWithTheClosedForm) {
       mass_times(n, angles, state.tau, feed_forward);
       const auto mass = robot.mass_matrix(psi);
       EXPECT_LT(relative(feed_forward, mass * tau), kTolerance);
+      forward_dynamics_and_mass_times(n, angles, state.psid, state.tau, state.psid, psidd, feed_forward);
+      check("together with M a");
+      EXPECT_LT(relative(feed_forward, mass * psid), kTolerance);
       for (const bool paired : {false, true}) {
         if (paired)
           paired_mass_matrix(n, state.psi, M);
@@ -165,6 +168,8 @@ TEST(HandTuned, TakesTheStatedOperations) {
   EXPECT_EQ(count([&] { two_pairs(x, kCountedSincos); }), 27);
   EXPECT_EQ(pairs + count([&] { mass_matrix(n, angles, out); }) - 5, 51);
   EXPECT_EQ(pairs + count([&] { mass_times(n, angles, x, out); }) - 4, 59);
+  Counted force[3];
+  EXPECT_EQ(pairs + count([&] { forward_dynamics_and_mass_times(n, angles, x, x, x, out, force); }), 141);
 }
 
 }  // namespace

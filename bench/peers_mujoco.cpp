@@ -35,7 +35,8 @@ std::string body_xml(int i, double payload) {
   std::string xml = "<body";
   if (joint.parent >= 0) {
     const TreeJoint& parent = kTree[joint.parent];
-    xml += " pos='" + number(parent.a) + "0 " + number(parent.s) + "' euler='" + number(parent.alpha) + "0 0'";
+    xml +=
+        " pos='" + number(parent.a) + "0 " + number(parent.s) + "' euler='" + number(parent.alpha) + "0 0'";
   }
   const double c = std::cos(joint.alpha), s = std::sin(joint.alpha);
   const auto& r = joint.centre;
@@ -59,8 +60,11 @@ std::string body_xml(int i, double payload) {
 std::string model_xml(bool constrained) {
   std::string xml =
       "<mujoco><compiler angle='radian' autolimits='true' balanceinertia='false'/>"
-      "<option gravity='0 0 " + number(-kGravity) + "' timestep='0.001' solver='Newton' iterations='10' "
-      "tolerance='1e-12' jacobian='dense'><flag contact='disable' refsafe='disable'/></option>\n<worldbody>\n" +
+      "<option gravity='0 0 " +
+      number(-kGravity) +
+      "' timestep='0.001' solver='Newton' iterations='10' "
+      "tolerance='1e-12' jacobian='dense'><flag contact='disable' "
+      "refsafe='disable'/></option>\n<worldbody>\n" +
       body_xml(0, kPayload) + "</worldbody>\n";
   if (constrained) {
     struct Coupling {
@@ -68,12 +72,14 @@ std::string model_xml(bool constrained) {
       double by_q2, by_q3, offset;
     };
     // q5 = 2 q2 - 2 q3 + ..., q6 = q2 - q3 - beta, q4 = -q2 + q3 + pi + beta
-    const Coupling couplings[] = {{2, 2, -2, kCouplingOffset[2]}, {4, 1, -1, kCouplingOffset[4]}, {5, -1, 1, kCouplingOffset[5]}};
+    const Coupling couplings[] = {
+        {2, 2, -2, kCouplingOffset[2]}, {4, 1, -1, kCouplingOffset[4]}, {5, -1, 1, kCouplingOffset[5]}};
     std::string tendons, equalities;
     for (const Coupling& c : couplings) {
       const std::string name = "t" + std::to_string(c.joint);
-      tendons += "<fixed name='" + name + "'><joint joint='j" + std::to_string(c.joint) + "' coef='1'/><joint joint='j1' coef='" +
-                 number(-c.by_q2) + "'/><joint joint='j3' coef='" + number(-c.by_q3) + "'/></fixed>\n";
+      tendons += "<fixed name='" + name + "'><joint joint='j" + std::to_string(c.joint) +
+                 "' coef='1'/><joint joint='j1' coef='" + number(-c.by_q2) + "'/><joint joint='j3' coef='" +
+                 number(-c.by_q3) + "'/></fixed>\n";
       equalities += "<tendon tendon1='" + name + "' polycoef='" + number(c.offset) +
                     "0 0 0 0' solref='0.001 1' solimp='0.9999 0.9999 0.001 0.5 2'/>\n";
     }

@@ -18,13 +18,16 @@ using namespace SimTK;
 class SimbodyRobot {
  public:
   explicit SimbodyRobot(bool constrained)
-      : matter_(system_), forces_(system_), gravity_(forces_, matter_, Vec3(0, 0, -kGravity)),
+      : matter_(system_),
+        forces_(system_),
+        gravity_(forces_, matter_, Vec3(0, 0, -kGravity)),
         torques_(forces_, matter_) {
     for (int i = 0; i < kJoints; ++i) {
       const TreeJoint& joint = kTree[i];
       const Transform link = link_frame(joint);
       const Vec3 centre = link * Vec3(joint.centre[0], joint.centre[1], joint.centre[2]);
-      const Inertia about_centre = Inertia(joint.inertia[0], joint.inertia[1], joint.inertia[2]).reexpress(~link.R());
+      const Inertia about_centre =
+          Inertia(joint.inertia[0], joint.inertia[1], joint.inertia[2]).reexpress(~link.R());
       MassProperties mass(joint.mass, centre, about_centre.shiftFromMassCenter(centre, joint.mass));
       if (i == kEndEffectorJoint) mass = with_payload(mass, link.p());
       const Body::Rigid body(mass);
@@ -61,8 +64,8 @@ class SimbodyRobot {
     system_.realize(state_, Stage::Dynamics);
     const Mat33 M = mass();
     const Vector rest(kJoints, 0.0);
-    matter_.calcResidualForceIgnoringConstraints(state_, rest, system_.getRigidBodyForces(state_, Stage::Dynamics),
-                                                 rest, bias_);
+    matter_.calcResidualForceIgnoringConstraints(
+        state_, rest, system_.getRigidBodyForces(state_, Stage::Dynamics), rest, bias_);
     Vec3 force(state.tau[0], state.tau[1], state.tau[2]);
     for (int i = 0; i < kJoints; ++i)
       for (int j = 0; j < 3; ++j) force[j] -= kCoupling[i][j] * bias_[i];
@@ -91,9 +94,11 @@ class SimbodyRobot {
   /// q[joint] - by_q2 q2 - by_q3 q3 - offset = 0.
   void couple(int joint, double by_q2, double by_q3) {
     Vector coefficients(4);
-    coefficients[0] = 1, coefficients[1] = -by_q2, coefficients[2] = -by_q3, coefficients[3] = -kCouplingOffset[static_cast<std::size_t>(joint)];
+    coefficients[0] = 1, coefficients[1] = -by_q2, coefficients[2] = -by_q3,
+    coefficients[3] = -kCouplingOffset[static_cast<std::size_t>(joint)];
     Array_<MobilizedBodyIndex> bodies;
-    for (const int i : {joint, 1, 3}) bodies.push_back(joints_[static_cast<std::size_t>(i)].getMobilizedBodyIndex());
+    for (const int i : {joint, 1, 3})
+      bodies.push_back(joints_[static_cast<std::size_t>(i)].getMobilizedBodyIndex());
     const Array_<MobilizerQIndex> coordinates(3, MobilizerQIndex(0));
     Constraint::CoordinateCoupler(matter_, new Function::Linear(coefficients), bodies, coordinates);
   }

@@ -106,7 +106,8 @@ class TextbookRobot {
         j = kTree[j].parent;
         M(i, j) = M(j, i) = moment[2];
       }
-      if (const int parent = kTree[i].parent; parent >= 0) transfer(frames, i, composite[i], composite[parent]);
+      if (const int parent = kTree[i].parent; parent >= 0)
+        transfer(frames, i, composite[i], composite[parent]);
     }
     return M;
   }

@@ -9,14 +9,14 @@
 namespace mixloop::bench {
 
 struct TreeJoint {
-  int parent;                                  ///< -1: the ground
+  int parent;  ///< -1: the ground
   double s, a, alpha;
   double mass;
-  std::array<double, 3> centre, inertia;       ///< in the link's frame, about the centre
+  std::array<double, 3> centre, inertia;  ///< in the link's frame, about the centre
 };
 
 inline constexpr int kJoints = 6;
-inline constexpr int kEndEffectorJoint = 2;  ///< E is the origin of its link's frame
+inline constexpr int kEndEffectorJoint = 2;            ///< E is the origin of its link's frame
 inline constexpr double kPi = 3.14159265358979323846;  // C++17 here, for a peer's headers
 inline constexpr double kRightAngle = kPi / 2;
 
@@ -41,8 +41,8 @@ inline constexpr std::array<std::array<double, 3>, kJoints> kCoupling = {{
 }};
 
 constexpr double radians(double degrees) { return degrees * kPi / 180; }
-inline constexpr std::array<double, kJoints> kCouplingOffset = {0, 0, radians(46 - 2 * (180 + 57 - 115)),
-                                                                0, radians(-57), radians(180 + 57)};
+inline constexpr std::array<double, kJoints> kCouplingOffset = {
+    0, 0, radians(46 - 2 * (180 + 57 - 115)), 0, radians(-57), radians(180 + 57)};
 
 /// Torques on q1, q2 and q3 that do the work of the motors': with these three as the independent
 /// coordinates q1 = psi1/8, q2 = 1.5/64 psi1 - psi2/16, q3 = 1.5/64 psi1 - psi3/16.

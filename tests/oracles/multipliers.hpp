@@ -38,8 +38,8 @@ template <class T>
 struct TreeBody {
   int frame = -1;
   T mass{};
-  Vector3<T> centre = Vector3<T>::Zero();    ///< in the frame's axes
-  Matrix3<T> inertia = Matrix3<T>::Zero();   ///< about the centre, in the frame's axes
+  Vector3<T> centre = Vector3<T>::Zero();   ///< in the frame's axes
+  Matrix3<T> inertia = Matrix3<T>::Zero();  ///< about the centre, in the frame's axes
 };
 
 /// A force at a point (in the frame's axes) with inertial components, and a moment in the frame's axes.
@@ -105,8 +105,8 @@ std::vector<FrameMotion<T>> frame_motions(const Tree<T>& tree, const VectorX<T>&
     m.p = parent.p + r;
     // r turns with the frame itself; the slide's own rate adds the Coriolis term.
     m.v = parent.v + m.w.cross(r) + slide;
-    m.acceleration = parent.acceleration + m.w_rate.cross(r) + m.w.cross(m.w.cross(r)) + slide_rate +
-                     2 * m.w.cross(slide);
+    m.acceleration =
+        parent.acceleration + m.w_rate.cross(r) + m.w.cross(m.w.cross(r)) + slide_rate + 2 * m.w.cross(slide);
     motions.push_back(m);
   }
   return motions;

@@ -67,7 +67,8 @@ TEST(Oracles, LagrangeAndMultipliersAgreeInWideFloats) {
       EXPECT_LT(distance(psidd, solution.psidd), 1e-26 * scale) << "sample " << sample;
       const VectorX<Wide> torque = multiplier_inverse_dynamics<Wide>(tree, constraints, psidd);
       EXPECT_LT(distance(tau, torque), 1e-26 * scale) << "sample " << sample;
-      const MatrixX<Wide> M = constraints.C.transpose() * tree_mass_matrix(tree, constraints.q) * constraints.C;
+      const MatrixX<Wide> M =
+          constraints.C.transpose() * tree_mass_matrix(tree, constraints.q) * constraints.C;
       EXPECT_LT(distance(robot.mass_matrix(psi), M), 1e-30);
     }
   }
@@ -165,7 +166,8 @@ TEST(RandomMechanism, ConstraintDerivativesAreThoseOfTheConstraints) {
     for (int i = 0; i < n; ++i) {
       const VectorX<Wide> step = dt * VectorX<Wide>::Unit(n, i);
       const VectorX<Wide> column = (mechanism.constraints<Wide>(psi + step, psid, t).q -
-                                    mechanism.constraints<Wide>(psi - step, psid, t).q) / (2 * dt);
+                                    mechanism.constraints<Wide>(psi - step, psid, t).q) /
+                                   (2 * dt);
       EXPECT_LT(distance(now.C.col(i), column), 1e-15) << "seed " << seed;
     }
   }

@@ -46,6 +46,7 @@ class RandomMechanism {
   ConstraintState<T> constraints(const VectorX<T>& psi, const VectorX<T>& psid, const T& t) const;
 
  private:
+  class Dice;
   struct Coordinate {
     bool linear_motion = false;  // a length
     Dyadic offset, chain, wave, frequency, phase, tempo, product, drift, sweep;
@@ -64,6 +65,14 @@ class RandomMechanism {
     int frame = 0;
     Dyadic point[3], force[3], moment[3], tempo;  // all of it times cos(tempo t)
   };
+
+  Coordinate random_coordinate(int j, MechanismKind kind, Dice& dice) const;
+  Frame random_frame(int i, Dice& dice) const;
+  static Body random_body(Dice& dice);
+  Load random_load(MechanismKind kind, Dice& dice) const;
+  std::string transforms_text() const;
+  std::string bodies_text() const;
+  std::string loads_text() const;
 
   int n_ = 0;
   std::vector<Coordinate> coordinates_;
@@ -97,14 +106,15 @@ Tree<T> RandomMechanism::tree(const T& t) const {
   }
   for (const Load& load : loads_) {
     const T strength = cos(T(load.tempo.as<T>() * t));
-    tree.loads.push_back({load.frame, vector(load.point), vector(load.force) * strength,
-                          vector(load.moment) * strength});
+    tree.loads.push_back(
+        {load.frame, vector(load.point), vector(load.force) * strength, vector(load.moment) * strength});
   }
   return tree;
 }
 
 template <class T>
-ConstraintState<T> RandomMechanism::constraints(const VectorX<T>& psi, const VectorX<T>& psid, const T& t) const {
+ConstraintState<T> RandomMechanism::constraints(const VectorX<T>& psi, const VectorX<T>& psid,
+                                                const T& t) const {
   using std::cos;
   using std::sin;
   ConstraintState<T> state{VectorX<T>::Zero(m()), VectorX<T>::Zero(m()), VectorX<T>::Zero(m()),
@@ -127,8 +137,8 @@ ConstraintState<T> RandomMechanism::constraints(const VectorX<T>& psi, const Vec
     state.C(j, f.d) += sweep * t;
     // The rest of q' beside C psi', and of q'' beside C psi''.
     T own_rate = wave * tempo * cos(argument) + 2 * drift * t + sweep * psi[f.d];
-    T own_gamma = -wave * sin(argument) * argument_rate * argument_rate + 2 * product * psid[f.b] * psid[f.c] +
-                  2 * drift + 2 * sweep * psid[f.d];
+    T own_gamma = -wave * sin(argument) * argument_rate * argument_rate +
+                  2 * product * psid[f.b] * psid[f.c] + 2 * drift + 2 * sweep * psid[f.d];
     T chained_rate(0);
     if (j > 0) {
       const T chain = f.chain.as<T>();

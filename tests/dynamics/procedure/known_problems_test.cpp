@@ -19,18 +19,24 @@ struct Motion {
 
 class Problem {
  public:
-  explicit Problem(const char* scene) : evaluation_(load_scene(std::filesystem::path(MIXLOOP_SCENES) / scene)) {}
+  explicit Problem(const char* scene)
+      : evaluation_(load_scene(std::filesystem::path(MIXLOOP_SCENES) / scene)) {}
 
-  double psidd(const Motion& m) { return evaluation_.forward(Vector1(m.psi), Vector1(m.psid), Vector1(0.0))[0]; }
+  double psidd(const Motion& m) {
+    return evaluation_.forward(Vector1(m.psi), Vector1(m.psid), Vector1(0.0))[0];
+  }
 
   /// Free motion over `duration` in steps of about `step`.
   Motion after(double duration, Motion m, double step) {
     const int count = static_cast<int>(std::ceil(duration / step));
     const double dt = duration / count;
     for (int i = 0; i < count; ++i) {
-      const auto moved = [&](double h, const Motion& slope) { return Motion{m.psi + h * slope.psi, m.psid + h * slope.psid}; };
+      const auto moved = [&](double h, const Motion& slope) {
+        return Motion{m.psi + h * slope.psi, m.psid + h * slope.psid};
+      };
       const auto slope = [&](const Motion& at) { return Motion{at.psid, psidd(at)}; };
-      const Motion a = slope(m), b = slope(moved(dt / 2, a)), c = slope(moved(dt / 2, b)), d = slope(moved(dt, c));
+      const Motion a = slope(m), b = slope(moved(dt / 2, a)), c = slope(moved(dt / 2, b)),
+                   d = slope(moved(dt, c));
       m.psi += dt / 6 * (a.psi + 2 * (b.psi + c.psi) + d.psi);
       m.psid += dt / 6 * (a.psid + 2 * (b.psid + c.psid) + d.psid);
     }

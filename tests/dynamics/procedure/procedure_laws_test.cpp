@@ -60,7 +60,8 @@ void for_random_mechanisms(std::initializer_list<MechanismKind> kinds, auto&& la
   for (const MechanismKind& kind : kinds)
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
       const RandomMechanism mechanism(seed, kind);
-      SCOPED_TRACE("seed " + std::to_string(seed) + (kind.nonlinear ? ", nonlinear" : "") + (kind.timed ? ", timed" : ""));
+      SCOPED_TRACE("seed " + std::to_string(seed) + (kind.nonlinear ? ", nonlinear" : "") +
+                   (kind.timed ? ", timed" : ""));
       law(mechanism, scene_of(mechanism), random_state(seed, mechanism.n()));
       if (testing::Test::HasFatalFailure()) return;
     }
@@ -68,28 +69,33 @@ void for_random_mechanisms(std::initializer_list<MechanismKind> kinds, auto&& la
 
 // Same numbers in text, double and wide float, so that 113 bits are met but for the augmented solve.
 TEST(RandomMechanisms, AgreeWithLagrangeMultipliersInWideFloats) {
-  for_random_mechanisms({kLinear, kNonlinear, kEverything}, [](const auto& mechanism, const Scene& scene, const State& state) {
-    const WideState s(state);
-    const auto constraints = mechanism.template constraints<Wide>(s.psi, s.psid, s.t);
-    const auto solution = oracle::multiplier_forward_dynamics<Wide>(mechanism.template tree<Wide>(s.t), constraints, s.input);
-    Procedure<Wide> evaluation(scene);
-    const WideVector psidd = evaluation.forward(s.psi, s.psid, s.input, s.t);
-    const double scale = 1 + static_cast<double>(solution.psidd.norm());
-    EXPECT_LT(distance(psidd, solution.psidd), 1e-26 * scale);
-    const WideVector tau = evaluation.inverse(s.psi, s.psid, psidd, s.t);
-    EXPECT_LT(distance(tau, s.input), 1e-26 * scale);
-  });
+  for_random_mechanisms({kLinear, kNonlinear, kEverything},
+                        [](const auto& mechanism, const Scene& scene, const State& state) {
+                          const WideState s(state);
+                          const auto constraints = mechanism.template constraints<Wide>(s.psi, s.psid, s.t);
+                          const auto solution = oracle::multiplier_forward_dynamics<Wide>(
+                              mechanism.template tree<Wide>(s.t), constraints, s.input);
+                          Procedure<Wide> evaluation(scene);
+                          const WideVector psidd = evaluation.forward(s.psi, s.psid, s.input, s.t);
+                          const double scale = 1 + static_cast<double>(solution.psidd.norm());
+                          EXPECT_LT(distance(psidd, solution.psidd), 1e-26 * scale);
+                          const WideVector tau = evaluation.inverse(s.psi, s.psid, psidd, s.t);
+                          EXPECT_LT(distance(tau, s.input), 1e-26 * scale);
+                        });
 }
 
 // 1e-10 of the largest acceleration: condition numbers of M up to 1e4, times the rounding of the terms.
 TEST(RandomMechanisms, AgreeWithLagrangeMultipliersInDoubles) {
-  for_random_mechanisms({kLinear, kNonlinear, kEverything}, [](const auto& mechanism, const Scene& scene, const State& state) {
-    const WideState s(state);
-    const auto constraints = mechanism.template constraints<Wide>(s.psi, s.psid, s.t);
-    const auto solution = oracle::multiplier_forward_dynamics<Wide>(mechanism.template tree<Wide>(s.t), constraints, s.input);
-    const VectorX psidd = Procedure<double>(scene).forward(state.psi, state.psid, state.input, state.t);
-    EXPECT_LT(distance(psidd.template cast<Wide>(), solution.psidd), 1e-10 * (1 + static_cast<double>(solution.psidd.norm())));
-  });
+  for_random_mechanisms(
+      {kLinear, kNonlinear, kEverything}, [](const auto& mechanism, const Scene& scene, const State& state) {
+        const WideState s(state);
+        const auto constraints = mechanism.template constraints<Wide>(s.psi, s.psid, s.t);
+        const auto solution = oracle::multiplier_forward_dynamics<Wide>(mechanism.template tree<Wide>(s.t),
+                                                                        constraints, s.input);
+        const VectorX psidd = Procedure<double>(scene).forward(state.psi, state.psid, state.input, state.t);
+        EXPECT_LT(distance(psidd.template cast<Wide>(), solution.psidd),
+                  1e-10 * (1 + static_cast<double>(solution.psidd.norm())));
+      });
 }
 
 TEST(RandomMechanisms, InverseDynamicsUndoesForwardDynamics) {
@@ -102,11 +108,12 @@ TEST(RandomMechanisms, InverseDynamicsUndoesForwardDynamics) {
 }
 
 TEST(RandomMechanisms, HaveASymmetricPositiveDefiniteMassMatrix) {
-  for_random_mechanisms({kLinear, kNonlinear, kEverything}, [](const auto&, const Scene& scene, const State& s) {
-    const MatrixX M = Procedure<double>(scene).mass(s.psi, s.t);
-    EXPECT_TRUE((M.array() == M.transpose().array()).all());
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixX>(M).eigenvalues()[0], 0);
-  });
+  for_random_mechanisms({kLinear, kNonlinear, kEverything},
+                        [](const auto&, const Scene& scene, const State& s) {
+                          const MatrixX M = Procedure<double>(scene).mass(s.psi, s.t);
+                          EXPECT_TRUE((M.array() == M.transpose().array()).all());
+                          EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixX>(M).eigenvalues()[0], 0);
+                        });
 }
 
 // Bias minus gravity is C(psi, psi') psi' with M' - 2 C skew: psi'^T (M' psi' - 2 (h - h at rest)) = 0.
@@ -116,10 +123,13 @@ TEST(RandomMechanisms, MassRateLessTwiceCoriolisIsSkew) {
     const WideState s(state);
     Procedure<Wide> evaluation(scene);
     const Wide step(1e-10);
-    const WideMatrix ahead = evaluation.mass(s.psi + step * s.psid), behind = evaluation.mass(s.psi - step * s.psid);
-    const WideVector rest = evaluation.h(s.psi, WideVector::Zero(s.psi.size())), h = evaluation.h(s.psi, s.psid);
+    const WideMatrix ahead = evaluation.mass(s.psi + step * s.psid),
+                     behind = evaluation.mass(s.psi - step * s.psid);
+    const WideVector rest = evaluation.h(s.psi, WideVector::Zero(s.psi.size())),
+                     h = evaluation.h(s.psi, s.psid);
     const WideVector M_rate = (ahead - behind) * s.psid / (2 * step);
-    EXPECT_LT(std::abs(static_cast<double>(Wide(s.psid.dot(M_rate - 2 * (h - rest))))), 1e-14 * (1 + static_cast<double>(M_rate.norm())));
+    EXPECT_LT(std::abs(static_cast<double>(Wide(s.psid.dot(M_rate - 2 * (h - rest))))),
+              1e-14 * (1 + static_cast<double>(M_rate.norm())));
   });
 }
 
@@ -133,19 +143,24 @@ TEST(RandomMechanisms, MotorPowerIsTheRateOfEnergy) {
       return Wide(E.kinetic + E.potential);
     };
     const Wide step(1e-10), rate = (total(step) - total(-step)) / (2 * step);
-    EXPECT_LT(std::abs(static_cast<double>(Wide(rate - s.input.dot(s.psid)))), 1e-12 * (1 + static_cast<double>(psidd.norm())));
+    EXPECT_LT(std::abs(static_cast<double>(Wide(rate - s.input.dot(s.psid)))),
+              1e-12 * (1 + static_cast<double>(psidd.norm())));
   });
 }
 
 // Lagrange's equations from the energies alone, mixed and time derivatives of the constraints included:
 // d/dt dT/dpsi' - dT/dpsi + dV/dpsi = tau. Differences of differences, step 1e-8: error 1e-16, noise 1e-18.
 TEST(RandomMechanisms, ObeyLagrangesEquationsWithTimeDependentConstraints) {
-  for_random_mechanisms({MechanismKind{.nonlinear = true, .timed = true}}, [](const auto& mechanism, const Scene& scene, const State& state) {
+  for_random_mechanisms({MechanismKind{.nonlinear = true, .timed = true}}, [](const auto& mechanism,
+                                                                              const Scene& scene,
+                                                                              const State& state) {
     const int n = mechanism.n();
     const WideState s(state);
     Procedure<Wide> evaluation(scene);
     const Wide step(1e-8);
-    const auto kinetic = [&](const WideVector& psi, const WideVector& psid, const Wide& t) { return evaluation.energies(psi, psid, t).kinetic; };
+    const auto kinetic = [&](const WideVector& psi, const WideVector& psid, const Wide& t) {
+      return evaluation.energies(psi, psid, t).kinetic;
+    };
     const auto momentum = [&](const WideVector& psi, const WideVector& psid, const Wide& t) {
       WideVector p(n);
       for (int i = 0; i < n; ++i) {
@@ -161,33 +176,38 @@ TEST(RandomMechanisms, ObeyLagrangesEquationsWithTimeDependentConstraints) {
     WideVector tau = (momentum_after(step) - momentum_after(-step)) / (2 * step);
     for (int i = 0; i < n; ++i) {
       const WideVector e = step * WideVector::Unit(n, i);
-      const auto ahead = evaluation.energies(s.psi + e, s.psid, s.t), behind = evaluation.energies(s.psi - e, s.psid, s.t);
+      const auto ahead = evaluation.energies(s.psi + e, s.psid, s.t),
+                 behind = evaluation.energies(s.psi - e, s.psid, s.t);
       tau[i] -= (ahead.kinetic - behind.kinetic - ahead.potential + behind.potential) / (2 * step);
     }
-    EXPECT_LT(distance(evaluation.inverse(s.psi, s.psid, psidd, s.t), tau), 1e-11 * (1 + static_cast<double>(tau.norm())));
+    EXPECT_LT(distance(evaluation.inverse(s.psi, s.psid, psidd, s.t), tau),
+              1e-11 * (1 + static_cast<double>(tau.norm())));
   });
 }
 
 // Jacobian, velocity and acceleration are the wide-float differences of position (step 1e-10).
 TEST(RandomMechanisms, EndEffectorDerivativesAreThoseOfItsPosition) {
-  for_random_mechanisms({kLinear, kNonlinear, kEverything}, [](const auto& mechanism, const Scene& scene, const State& state) {
-    const WideState s(state);
-    Procedure<Wide> evaluation(scene);
-    const Wide step(1e-10);
-    const auto end = evaluation.end(s.psi, s.psid, s.input, s.t);
-    const auto along = [&](const Wide& dt) {
-      return evaluation.end(s.psi + dt * s.psid + dt * dt / 2 * s.input, s.psid + dt * s.input, s.input, s.t + dt);
-    };
-    const auto ahead = along(step), behind = along(-step);
-    EXPECT_LT(distance(end.velocity, (ahead.position - behind.position) / (2 * step)), 1e-14);
-    EXPECT_LT(distance(end.acceleration, (ahead.velocity - behind.velocity) / (2 * step)), 1e-12);
-    for (int i = 0; i < mechanism.n(); ++i) {
-      const WideVector e = step * WideVector::Unit(mechanism.n(), i);
-      const auto column = (evaluation.end(s.psi + e, s.psid, s.input, s.t).position -
-                           evaluation.end(s.psi - e, s.psid, s.input, s.t).position) / (2 * step);
-      EXPECT_LT(distance(end.jacobian.col(i), column), 1e-15);
-    }
-  });
+  for_random_mechanisms(
+      {kLinear, kNonlinear, kEverything}, [](const auto& mechanism, const Scene& scene, const State& state) {
+        const WideState s(state);
+        Procedure<Wide> evaluation(scene);
+        const Wide step(1e-10);
+        const auto end = evaluation.end(s.psi, s.psid, s.input, s.t);
+        const auto along = [&](const Wide& dt) {
+          return evaluation.end(s.psi + dt * s.psid + dt * dt / 2 * s.input, s.psid + dt * s.input, s.input,
+                                s.t + dt);
+        };
+        const auto ahead = along(step), behind = along(-step);
+        EXPECT_LT(distance(end.velocity, (ahead.position - behind.position) / (2 * step)), 1e-14);
+        EXPECT_LT(distance(end.acceleration, (ahead.velocity - behind.velocity) / (2 * step)), 1e-12);
+        for (int i = 0; i < mechanism.n(); ++i) {
+          const WideVector e = step * WideVector::Unit(mechanism.n(), i);
+          const auto column = (evaluation.end(s.psi + e, s.psid, s.input, s.t).position -
+                               evaluation.end(s.psi - e, s.psid, s.input, s.t).position) /
+                              (2 * step);
+          EXPECT_LT(distance(end.jacobian.col(i), column), 1e-15);
+        }
+      });
 }
 
 }  // namespace

@@ -69,10 +69,12 @@ TEST(Procedure, AgreesWithTheClosedFormOverTenThousandStates) {
       return static_cast<double>((extended(actual) - expected).cwiseAbs().maxCoeff() /
                                  expected.cwiseAbs().maxCoeff());
     };
-    const double forward = error(robot.forward(psi, psid, input),
-                                 closed_form.forward_dynamics(extended(psi), extended(psid), extended(input)));
-    const double inverse = error(robot.inverse(psi, psid, input),
-                                 closed_form.inverse_dynamics(extended(psi), extended(psid), extended(input)));
+    const double forward =
+        error(robot.forward(psi, psid, input),
+              closed_form.forward_dynamics(extended(psi), extended(psid), extended(input)));
+    const double inverse =
+        error(robot.inverse(psi, psid, input),
+              closed_form.inverse_dynamics(extended(psi), extended(psid), extended(input)));
     worst_forward = std::max(worst_forward, forward);
     worst_inverse = std::max(worst_inverse, inverse);
     ASSERT_LT(forward, 1e-12) << "sample " << sample << ", psi " << psi.transpose();
@@ -117,7 +119,9 @@ TEST(Procedure, AgreesWithTheClosedFormInWideFloats) {
   std::mt19937_64 random(9);
   for (int sample = 0; sample < 20; ++sample) {
     const auto [psi, psid, tau] = random_state(random);
-    const auto wide = [](const Vector3& x) -> WideVector { return WideVector(Wide(x[0]), Wide(x[1]), Wide(x[2])); };
+    const auto wide = [](const Vector3& x) -> WideVector {
+      return WideVector(Wide(x[0]), Wide(x[1]), Wide(x[2]));
+    };
     const WideVector expected = closed_form.forward_dynamics(wide(psi), wide(psid), wide(tau));
     const WideVector actual = robot.forward(wide(psi), wide(psid), wide(tau));
     EXPECT_LT(static_cast<double>(Wide((actual - expected).norm() / expected.norm())), 1e-13);
@@ -132,7 +136,7 @@ TEST(Procedure, EndEffectorMovesAsTheClosedFormSays) {
     const auto [psi, psid, psidd] = random_state(random);
     const auto end = robot.end(psi, psid, psidd);
     EXPECT_LT((end.position - closed_form.end_effector(psi)).norm(), 1e-14);
-    EXPECT_LT((end.velocity - closed_form.end_effector_velocity(psi, psid)).norm(), 1e-12);       // of 10 m/s
+    EXPECT_LT((end.velocity - closed_form.end_effector_velocity(psi, psid)).norm(), 1e-12);  // of 10 m/s
     EXPECT_LT((end.acceleration - closed_form.end_effector_acceleration(psi, psid, psidd)).norm(), 1e-10);
     EXPECT_LT((end.jacobian - closed_form.end_effector_jacobian(psi)).norm(), 1e-15);
     const auto energy = robot.energies(psi, psid);

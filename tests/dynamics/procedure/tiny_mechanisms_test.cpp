@@ -38,8 +38,9 @@ end_effector: {frame: rod, axes: [y]}
   EXPECT_DOUBLE_EQ(pendulum.energies(one(0), one(2)).kinetic, 36);
 }
 
-// Cart of 3 kg along x, a 1 kg point 2 m under it, angle from hanging towards -x. Hanging: M = [4, -2; -2, 4].
-// With the rod level, towards +x (-90 deg): M = [4, 0; 0, 4], h = (-m l psi'^2, -m g l) = (-18, -20) at 3 rad/s.
+// Cart of 3 kg along x, a 1 kg point 2 m under it, angle from hanging towards -x. Hanging: M = [4, -2; -2,
+// 4]. With the rod level, towards +x (-90 deg): M = [4, 0; 0, 4], h = (-m l psi'^2, -m g l) = (-18, -20) at 3
+// rad/s.
 TEST(TinyMechanisms, CartPole) {
   auto cart_pole = mechanism(R"(
 motors: {x: linear, angle: rotary}
