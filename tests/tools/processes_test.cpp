@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <fstream>
+#include <map>
 
 #include "tests/support/command.hpp"
 #include "tests/tools/paths.hpp"
@@ -20,6 +22,19 @@ TEST(Processes, FindEachOtherWhenStartedByHand) {
   EXPECT_EQ(controller.wait(), 0) << controller.err();
   EXPECT_EQ(planner.wait(), 0) << planner.err();
   EXPECT_NEAR(plant.json()["max_position_error"], 13.2066936e-3, 0.5e-10);
+}
+
+TEST(Processes, AllocateNothingInTheirSteadyState) {
+  if (MIXLOOP_SANITIZED) GTEST_SKIP() << "a sanitizer has its own malloc";
+  ScratchFolder folder;
+  Command command({bin("mixloop"), "run", experiment("paper"), "--truth", "--json"},
+                  {"LD_PRELOAD=" MIXLOOP_STEADY_ALLOCATIONS_LIBRARY, "MIXLOOP_STEADY_ALLOCATIONS=" + folder.file("counts")});
+  ASSERT_EQ(command.wait(), 0) << command.err();
+  std::ifstream counts(folder.file("counts"));
+  std::map<std::string, long> found;
+  std::string name;
+  for (long count = 0; counts >> name >> count;) found[name] = count;
+  EXPECT_EQ(found, (std::map<std::string, long>{{"mixloop-controller", 0}, {"mixloop-planner", 0}, {"mixloop-plant", 0}}));
 }
 
 TEST(Processes, RefuseAPeerThatWasStartedWithSomethingElse) {
