@@ -2,8 +2,8 @@
 // Compares a lockstep run with the bare exchange of its messages, in interleaved pairs, because runs of
 // either vary by a quarter. To be run in a network namespace of its own:
 //   tools/in-namespace lockstep_pairs [--pairs 15] [--bare "COMMAND"] -- COMMAND...
-// Both commands print one JSON object (the last line counts) with "round_trip_p50" and either "rate", or
-// "ticks" and "wall_time". Prints the medians and the medians of the pairs' ratios.
+// Both commands print one JSON object with "round_trip_p50", "round_trip_p99" and
+// either "ticks" and "wall_time", or "rate". Prints the medians and the medians of the pairs' ratios.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

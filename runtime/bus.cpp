@@ -18,8 +18,10 @@ namespace mixloop {
 namespace {
 
 struct Subscription {
+  std::string channel;
   Bus::Handler handler;
   void* context;
+  lcm_subscription_t* in_lcm = nullptr;
 };
 
 void dispatch(const lcm_recv_buf_t* received, const char*, void* user) {
@@ -54,20 +56,19 @@ struct Bus::Connection {
   }
   ~Connection() { lcm_destroy(lcm); }
 
-  lcm_subscription_t* subscribe(const std::string& channel, Subscription& subscription);
+  lcm_subscription_t* subscribe(Subscription& subscription);
   void narrow_filter();
 
   MulticastGroup group;
   lcm_t* lcm = nullptr;
   int fd = -1;
   int receiving_socket = -1;
-  std::vector<std::string> channels;
-  std::list<Subscription> subscriptions;
+  std::list<Subscription> subscriptions;  // LCM points into it
 };
 
-lcm_subscription_t* Bus::Connection::subscribe(const std::string& channel, Subscription& subscription) {
+lcm_subscription_t* Bus::Connection::subscribe(Subscription& subscription) {
   const auto subscribe_in_lcm = [&] {
-    return lcm_subscribe(lcm, quoted_as_regex(channel).c_str(), dispatch, &subscription);
+    return lcm_subscribe(lcm, quoted_as_regex(subscription.channel).c_str(), dispatch, &subscription);
   };
   if (fd >= 0) return subscribe_in_lcm();
 
@@ -85,7 +86,10 @@ lcm_subscription_t* Bus::Connection::subscribe(const std::string& channel, Subsc
 
 // Without a receiving socket to attach it to, everything works, only with more wake-ups.
 void Bus::Connection::narrow_filter() {
-  if (receiving_socket >= 0) attach(receiving_socket, channel_filter(channels));
+  if (receiving_socket < 0) return;
+  std::vector<std::string> channels;
+  for (const Subscription& s : subscriptions) channels.push_back(s.channel);
+  attach(receiving_socket, channel_filter(channels));
 }
 
 Bus::Bus(BusOptions options)
@@ -100,14 +104,24 @@ void Bus::publish(const std::string& channel, Bytes bytes) {
 
 void Bus::subscribe(const std::string& channel, Handler handler, void* context) {
   Connection& c = *connection_;
-  c.subscriptions.push_back({handler, context});
-  lcm_subscription_t* made = c.subscribe(channel, c.subscriptions.back());
-  if (made == nullptr)
+  Subscription& subscription =
+      c.subscriptions.emplace_back(Subscription{.channel = channel, .handler = handler, .context = context});
+  subscription.in_lcm = c.subscribe(subscription);
+  if (subscription.in_lcm == nullptr)
     throw RunFault("bus", "LCM joined " + options_.url +
                               " but doesn't hear its own test message: does a firewall drop multicast?");
   // A full queue drops the newest message and keeps the oldest: make it longer than any backlog.
-  lcm_subscription_set_queue_capacity(made, 100'000);
-  c.channels.push_back(channel);
+  lcm_subscription_set_queue_capacity(subscription.in_lcm, 100'000);
+  c.narrow_filter();
+}
+
+void Bus::unsubscribe(const std::string& channel) {
+  Connection& c = *connection_;
+  const auto found = std::find_if(c.subscriptions.begin(), c.subscriptions.end(),
+                                  [&channel](const Subscription& s) { return s.channel == channel; });
+  if (found == c.subscriptions.end()) return;
+  lcm_unsubscribe(c.lcm, found->in_lcm);
+  c.subscriptions.erase(found);
   c.narrow_filter();
 }
 

@@ -57,6 +57,9 @@ class Bus {
         channel, [](void* context, Bytes bytes) { (static_cast<Object*>(context)->*Method)(bytes); }, object);
   }
 
+  /// Takes a subscription back; nothing happens where there is none. Not from within a handler.
+  void unsubscribe(const std::string& channel);
+
   /// Waits for one message, until `deadline`, with the kernel's nanosecond timeouts. A message that is
   /// there is handled even where the deadline is over; a turned switch goes first.
   Wake wait(Instant deadline, const StopSwitch& stop);

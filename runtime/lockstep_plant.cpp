@@ -140,7 +140,10 @@ LockstepPlant::Answer LockstepPlant::wait_for_command(std::int64_t tick) {
     const Wake wake = bus_.wait(resend, stop_);
     if (wake == Wake::stop) return Answer::interrupted;
     if (stop_heard_) return Answer::stopped;
-    if (command_heard_) return Answer::command;
+    if (command_heard_) {
+      stop_listening();
+      return Answer::command;
+    }
     if (mismatch_heard_ && !controller_agrees_)
       throw RunFault("config_mismatch",
                      "the controller that answers on " + command_channel_ + " was started with another " +
@@ -149,7 +152,7 @@ LockstepPlant::Answer LockstepPlant::wait_for_command(std::int64_t tick) {
 
     const nanoseconds silence = now() - began;
     if (silence >= longest) lost_peer(tick, longest);
-    if (silence >= longest / 2) listen_for_planner();
+    if (silence >= longest / 4) listen_for_planner();
     bus_.publish(state_channel_, state_.encoded());
     ++resent;
     interval = std::min(2 * interval, options_.slowest_resend);
@@ -192,7 +195,14 @@ void LockstepPlant::send_end(std::int8_t reason) {
 void LockstepPlant::listen_for_planner() {
   if (listens_for_planner_) return;
   listens_for_planner_ = true;
+  planner_heard_ = false;
   bus_.subscribe<&LockstepPlant::on_reference>(bus_.channel("REFERENCE"), this);
+}
+
+void LockstepPlant::stop_listening() {
+  if (!listens_for_planner_) return;
+  listens_for_planner_ = false;
+  bus_.unsubscribe(bus_.channel("REFERENCE"));
 }
 
 void LockstepPlant::lost_peer(std::int64_t tick, nanoseconds waited) const {

@@ -81,6 +81,7 @@ class LockstepPlant {
   Answer wait_for_due(std::int64_t tick);
   void send_end(std::int8_t reason);
   void listen_for_planner();
+  void stop_listening();
   [[noreturn]] void lost_peer(std::int64_t tick, nanoseconds waited) const;
 
   void on_command(Bytes bytes);

@@ -49,6 +49,24 @@ TEST(Bus, carries_bytes_on_the_channels_that_are_subscribed) {
   EXPECT_EQ(bus.wait(now() + 20ms, never), Wake::deadline);
 }
 
+TEST(Bus, takes_a_subscription_back) {
+  Bus bus;
+  const StopSwitch never;
+  Ear a, b;
+  bus.subscribe<&Ear::take>("A", &a);
+  bus.subscribe<&Ear::take>("B", &b);
+  bus.unsubscribe("B");
+  bus.unsubscribe("C");
+  bus.publish("B", as_bytes("no"));
+  bus.publish("A", as_bytes("yes"));
+  EXPECT_EQ(bus.wait(now() + 5s, never), Wake::message);
+  EXPECT_EQ(a.heard.size(), 1U);
+  bus.subscribe<&Ear::take>("B", &b);
+  bus.publish("B", as_bytes("again"));
+  EXPECT_EQ(bus.wait(now() + 5s, never), Wake::message);
+  EXPECT_EQ(b.heard, std::vector<std::string>{"again"});
+}
+
 TEST(Bus, hears_several_buses_in_one_process) {
   Bus one, two;
   const StopSwitch never;

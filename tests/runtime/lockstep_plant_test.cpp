@@ -185,7 +185,7 @@ TEST_F(Plant, names_the_channel_that_it_waited_for_in_vain) {
 
 TEST_F(Plant, says_that_the_controller_is_missing_where_the_planner_answers) {
   LockstepOptions o = options(1);
-  o.first_wait = 300ms;
+  o.first_wait = 1200ms;
   start(o);
   while (plant_->running()) {
     script_.send_reference(0);
