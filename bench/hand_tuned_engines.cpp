@@ -17,22 +17,20 @@ constexpr Lumped kFolded = lump(kPayload, kGravity);
 
 constexpr auto kLibrarySincos = [](double x, double* sine, double* cosine) { ::sincos(x, sine, cosine); };
 constexpr auto kInlinedSincos = [](double x, double* sine, double* cosine) {
-  Lanes<2> s, c;
-  lane_sincos<2>(Lanes<2>{x, x}, &s, &c);
-  *sine = s[0];
-  *cosine = c[0];
-};
-
-constexpr auto kProgramsSincos = [](double x, double* sine, double* cosine) {
-  mixloop_sincos::sincos(x, sine, cosine);
+  paired_sincos(x, sine, cosine);
 };
 
 constexpr auto kThreeFromLibrary = [](const double* psi) { return three_pairs(psi, kLibrarySincos); };
 constexpr auto kTwoFromLibrary = [](const double* psi) { return two_pairs(psi, kLibrarySincos); };
 constexpr auto kThreeInlined = [](const double* psi) { return three_pairs(psi, kInlinedSincos); };
 constexpr auto kTwoInlined = [](const double* psi) { return two_pairs(psi, kInlinedSincos); };
-
-constexpr auto kThreeOfThePrograms = [](const double* psi) { return three_pairs(psi, kProgramsSincos); };
+constexpr auto kThreeOfThePrograms = [](const double* psi) {
+  const double x = 0.0234375 * psi[0], a = x - 0.0625 * psi[1], b = x - 0.0625 * psi[2];
+  const double angles[3] = {a, b, (3.0 * a + kOffsetC) - 2.0 * b};
+  double s[3], c[3];
+  mixloop_sincos::sincos_of(angles, s, c);
+  return Angles<double>{s[0], c[0], s[1], c[1], s[2], c[2]};
+};
 
 /// `n` are the folded numbers or ones made at run time.
 template <class Numbers, class Angles>
@@ -127,7 +125,7 @@ void add_hand_tuned(Engines& engines) {
   add(engine("2 C library sincos", Folded{}, kTwoFromLibrary));
   add(engine("3 inlined sincos", Folded{}, kThreeInlined));
   add(engine("2 inlined sincos", Folded{}, kTwoInlined));
-  add(engine("3 of the programs' sincos", Folded{}, kThreeOfThePrograms));
+  add(engine("the programs' sincos, three at once", Folded{}, kThreeOfThePrograms));
   add(engine("3 inlined sincos, payload a parameter", unknown_payload(), kThreeInlined));
   add(vectors_inside());
   add(in_lanes<4>("4 lanes"));

@@ -20,7 +20,11 @@ using MatrixX = oracle::MatrixX<double>;
 using WideVector = oracle::VectorX<Wide>;
 using WideMatrix = oracle::MatrixX<Wide>;
 
+#ifdef __OPTIMIZE__
 constexpr std::uint64_t kSeeds = 60;
+#else
+constexpr std::uint64_t kSeeds = 10;  // wide floats are slow unoptimised
+#endif
 constexpr MechanismKind kLinear{}, kNonlinear{.nonlinear = true},
     kEverything{.nonlinear = true, .timed = true, .loads = true};
 
