@@ -11,7 +11,8 @@ IkOutcome Follower::start(const InverseKinematics::Accepts& accepts) {
 
 IkOutcome Follower::complete(double step, const PathPoint& desired, Vector psi) {
   Motion next{step, desired, {std::move(psi), {}, {}}};
-  const IkOutcome outcome = ik_.rates(desired, time(step), next.motors.psi, next.motors.psid, next.motors.psidd);
+  const IkOutcome outcome =
+      ik_.rates(desired, time(step), next.motors.psi, next.motors.psid, next.motors.psidd);
   if (outcome == IkOutcome::kSolved) now_ = std::move(next);
   return outcome;
 }

@@ -22,7 +22,8 @@ class Follower {
 
   /// At the path's start, on the branch of home.
   IkOutcome start(const InverseKinematics::Accepts& accepts);
-  /// On to `step` from the motion in hand; without a solution there, the motion in hand is a last one before it.
+  /// On to `step` from the motion in hand; without a solution there, the motion in hand is a last one before
+  /// it.
   IkOutcome advance(double step);
   /// Takes up the path at a motion known from before.
   void resume(Motion motion) { now_ = std::move(motion); }

@@ -49,10 +49,17 @@ double unwrapped(double angle, double other) {
 }  // namespace
 
 InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
-    : model_(model), ws_(model), home_(Eigen::Map<const Vector>(model.scene->home.data(), model.n())), zero_(Vector::Zero(model.n())), scale_(length_of_chain(model)) {
+    : model_(model),
+      ws_(model),
+      home_(Eigen::Map<const Vector>(model.scene->home.data(), model.n())),
+      zero_(Vector::Zero(model.n())),
+      scale_(length_of_chain(model)) {
   const std::size_t axes = model.scene->end_effector.axes.size();
   if (axes != static_cast<std::size_t>(model.n()))
-    throw InputError("no_inverse", {model.scene->transforms.front().place.file}, fmt::format("the scene '{}' has {} motors for {} axes of its end effector; a path needs as many motors as axes", model.scene->name, model.n(), axes));
+    throw InputError("no_inverse", {model.scene->transforms.front().place.file},
+                     fmt::format("the scene '{}' has {} motors for {} axes of its end effector; a path needs "
+                                 "as many motors as axes",
+                                 model.scene->name, model.n(), axes));
   if (method == Method::kClosedFormIfKnown) arm_ = find_three_axis_arm(model);
   const Eigen::Matrix3d J = jacobian_of(forward(home_, zero_, zero_, 0));
   motor_scale_ = Vector::Ones(model.n());
@@ -62,17 +69,21 @@ InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
 
 IkOutcome InverseKinematics::closed_form(const Eigen::Vector3d& point, Vector& psi) const {
   const ArmReach reach = reach_of(*arm_, point);
-  if (!(reach.beside >= 0 && reach.distance >= arm_->nearest() && reach.distance <= arm_->farthest())) return IkOutcome::kOutOfReach;
+  if (!(reach.beside >= 0 && reach.distance >= arm_->nearest() && reach.distance <= arm_->farthest()))
+    return IkOutcome::kOutOfReach;
   const auto angles = arm_angles<double>(*arm_, {point[0], point[1], point[2]});
   const Eigen::Vector3d before = arm_->angles(psi);
-  psi = arm_->motors({unwrapped(angles[0], before[0]), unwrapped(angles[1], before[1]), unwrapped(angles[2], before[2])});
+  psi = arm_->motors(
+      {unwrapped(angles[0], before[0]), unwrapped(angles[1], before[1]), unwrapped(angles[2], before[2])});
   return psi.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
 }
 
 // The closed form on Taylor series in time: its rates are exact.
 IkOutcome InverseKinematics::closed_form_rates(const PathPoint& point, Vector& psid, Vector& psidd) const {
   using Series = Taylor<double>;
-  const auto along = [&](int i) { return Series(point.position[i], point.velocity[i], point.acceleration[i] ); };
+  const auto along = [&](int i) {
+    return Series(point.position[i], point.velocity[i], point.acceleration[i]);
+  };
   const auto [base, shoulder, elbow] = arm_angles<Series>(*arm_, {along(0), along(1), along(2)});
   psid = arm_->B_inverse * Eigen::Vector3d(base.d, shoulder.d, elbow.d);
   psidd = arm_->B_inverse * Eigen::Vector3d(base.dd, shoulder.dd, elbow.dd);
@@ -89,11 +100,13 @@ Eigen::Vector3d InverseKinematics::on_axes(const Eigen::Vector3d& x) const {
 Eigen::Matrix3d InverseKinematics::jacobian_of(const EndEffectorState<double>& state) const {
   Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
   Eigen::Index i = 0;
-  for (const int axis : model_.scene->end_effector.axes) J.row(i++).head(model_.n()) = state.jacobian.row(axis);
+  for (const int axis : model_.scene->end_effector.axes)
+    J.row(i++).head(model_.n()) = state.jacobian.row(axis);
   return J;
 }
 
-const EndEffectorState<double>& InverseKinematics::forward(const Vector& psi, const Vector& psid, const Vector& psidd, double t) {
+const EndEffectorState<double>& InverseKinematics::forward(const Vector& psi, const Vector& psid,
+                                                           const Vector& psidd, double t) {
   return end_effector<double>(model_, span_of(psi), span_of(psid), span_of(psidd), t, ws_);
 }
 
@@ -132,12 +145,14 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
   return error.norm() <= 1e-12 * scale_ ? IkOutcome::kSolved : IkOutcome::kOutOfReach;
 }
 
-IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, double t, Vector& psi, const Accepts& accepts) {
+IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, double t, Vector& psi,
+                                                const Accepts& accepts) {
   psi = home_;
   if (arm_) return closed_form(point, psi);
   const double det_home = jacobian_of(forward(home_, zero_, zero_, t)).determinant();
   const auto on_home_side = [&](const Vector& at) {
-    return det_home * jacobian_of(forward(at, zero_, zero_, t)).determinant() >= 0 && (!accepts || accepts(at));
+    return det_home * jacobian_of(forward(at, zero_, zero_, t)).determinant() >= 0 &&
+           (!accepts || accepts(at));
   };
   bool found_other = false;
   double nearest = HUGE_VAL, least_miss = HUGE_VAL;
@@ -147,7 +162,8 @@ IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, do
     if (nearest <= spread) break;
     Vector found = home_;
     for (Eigen::Index i = 0; i < found.size(); ++i)
-      found[i] += spread * motor_scale_[i] * (2 * std::fmod(0.5 + start * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0) - 1);
+      found[i] += spread * motor_scale_[i] *
+                  (2 * std::fmod(0.5 + start * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0) - 1);
     if (start > 0 && !on_home_side(found)) continue;
     if (position(point, t, found) != IkOutcome::kSolved) {
       const double missed = miss(point, t, found);
@@ -164,13 +180,15 @@ IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, do
   return found_other ? IkOutcome::kOtherBranch : IkOutcome::kOutOfReach;
 }
 
-IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vector& psi, Vector& psid, Vector& psidd) {
+IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vector& psi, Vector& psid,
+                                   Vector& psidd) {
   if (arm_) return closed_form_rates(point, psid, psidd);
   const EndEffectorState<double>& drift = forward(psi, zero_, zero_, t);
   const Eigen::PartialPivLU<Eigen::Matrix3d> J(jacobian_of(drift));
   psid = first_of(J.solve(on_axes(point.velocity - drift.velocity)), model_.n());
   if (!psid.allFinite()) return IkOutcome::kSingular;
-  psidd = first_of(J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)), model_.n());
+  psidd =
+      first_of(J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)), model_.n());
   return psidd.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
 }
 

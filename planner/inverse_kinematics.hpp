@@ -18,9 +18,9 @@ enum class IkOutcome {
   kSingular,     ///< the Jacobian has no inverse there, to round-off
 };
 
-/// From a desired motion of the end effector to that of the motors, for a scene with as many motors as its end
-/// effector has axes. Closed form for the paper's family (ThreeAxisArm), else Newton's method by the exact
-/// Jacobian, damped where it has to be. The branch is the one of the scene's home.
+/// From a desired motion of the end effector to that of the motors, for a scene with as many motors as its
+/// end effector has axes. Closed form for the paper's family (ThreeAxisArm), else Newton's method by the
+/// exact Jacobian, damped where it has to be. The branch is the one of the scene's home.
 class InverseKinematics {
  public:
   enum class Method { kClosedFormIfKnown, kNewton };
@@ -43,14 +43,16 @@ class InverseKinematics {
   IkOutcome position(const Eigen::Vector3d& point, double t, Vector& psi);
 
   /// The same from home: of the solutions on home's branch that `accepts` too, the one nearest to home.
-  IkOutcome position_from_home(const Eigen::Vector3d& point, double t, Vector& psi, const Accepts& accepts = {});
+  IkOutcome position_from_home(const Eigen::Vector3d& point, double t, Vector& psi,
+                               const Accepts& accepts = {});
 
   /// psid and psidd that go with a path's velocity and acceleration, at the psi of its position:
   /// J psid = v - E_t, J psidd = a - (E'' where psidd = 0).
   IkOutcome rates(const PathPoint& point, double t, const Vector& psi, Vector& psid, Vector& psidd);
 
   /// The end effector for given motors, in a workspace that the next call overwrites.
-  const EndEffectorState<double>& forward(const Vector& psi, const Vector& psid, const Vector& psidd, double t);
+  const EndEffectorState<double>& forward(const Vector& psi, const Vector& psid, const Vector& psidd,
+                                          double t);
 
   /// How far the end effector at psi is from `point` over the scene's axes, m.
   double miss(const Eigen::Vector3d& point, double t, const Vector& psi);

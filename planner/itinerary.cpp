@@ -25,15 +25,23 @@ std::int64_t ticks_of(double seconds, double rate_hz, const Place& place, const 
   const double ticks = seconds * rate_hz, whole = std::round(ticks);
   if (!(whole <= static_cast<double>(kMostSteps))) refuse_length(place, what);
   if (std::abs(ticks - whole) > 1e-9 * whole)
-    throw InputError("off_grid", place, fmt::format("{} is {} s, which is {} ticks at {} Hz; expected a whole number, such as {} s", what, seconds, ticks, rate_hz, std::max(whole, 1.0) / rate_hz));
+    throw InputError(
+        "off_grid", place,
+        fmt::format("{} is {} s, which is {} ticks at {} Hz; expected a whole number, such as {} s", what,
+                    seconds, ticks, rate_hz, std::max(whole, 1.0) / rate_hz));
   return static_cast<std::int64_t>(whole);
 }
 
-Itinerary::Itinerary(const Path& path, double rate_hz, int stages) : axes_(path.axes), step_rate_(rate_hz * stages) {
+Itinerary::Itinerary(const Path& path, double rate_hz, int stages)
+    : axes_(path.axes), step_rate_(rate_hz * stages) {
   const auto& vias = path.vias;
-  const auto line = [&](std::size_t to) { return stages * ticks_of(vias[to].duration, rate_hz, vias[to].place, "the duration"); };
+  const auto line = [&](std::size_t to) {
+    return stages * ticks_of(vias[to].duration, rate_hz, vias[to].place, "the duration");
+  };
   const auto rest = [&](std::size_t at) {
-    if (vias[at].dwell > 0) add(stages * ticks_of(vias[at].dwell, rate_hz, vias[at].place, "the dwell"), vias[at].point, vias[at].point, vias[at].place);
+    if (vias[at].dwell > 0)
+      add(stages * ticks_of(vias[at].dwell, rate_hz, vias[at].place, "the dwell"), vias[at].point,
+          vias[at].point, vias[at].place);
   };
   rest(0);
   for (std::size_t i = 1; i < vias.size(); ++i) {
@@ -48,7 +56,8 @@ Itinerary::Itinerary(const Path& path, double rate_hz, int stages) : axes_(path.
   }
 }
 
-void Itinerary::add(std::int64_t count, const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Place& place) {
+void Itinerary::add(std::int64_t count, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                    const Place& place) {
   const std::int64_t first = stretches_.empty() ? 0 : lap_steps();
   if (first + count > kMostSteps) refuse_length(place, "the path");
   stretches_.push_back({first, count, from, to, place});
@@ -57,8 +66,9 @@ void Itinerary::add(std::int64_t count, const Eigen::Vector3d& from, const Eigen
 Itinerary::Within Itinerary::within(double step) const {
   const auto lap = static_cast<double>(lap_steps());
   const double local = step >= static_cast<double>(steps()) ? lap : std::fmod(step, lap);
-  const auto after = std::upper_bound(stretches_.begin() + 1, stretches_.end(), local,
-                                      [](double at, const Stretch& stretch) { return at < static_cast<double>(stretch.first); });
+  const auto after = std::upper_bound(
+      stretches_.begin() + 1, stretches_.end(), local,
+      [](double at, const Stretch& stretch) { return at < static_cast<double>(stretch.first); });
   const Stretch& stretch = *(after - 1);
   return {stretch, (local - static_cast<double>(stretch.first)) / static_cast<double>(stretch.count)};
 }
@@ -83,10 +93,12 @@ std::string Itinerary::to_text(const Eigen::Vector3d& point) const {
 std::string Itinerary::describe(double step) const {
   const auto [stretch, x] = within(step);
   std::string lap;
-  if (laps_ > 1) lap = fmt::format(", lap {} of {}", std::min(laps_, 1 + static_cast<std::int64_t>(step) / lap_steps()), laps_);
+  if (laps_ > 1)
+    lap = fmt::format(", lap {} of {}", std::min(laps_, 1 + static_cast<std::int64_t>(step) / lap_steps()),
+                      laps_);
   if (stretch.from == stretch.to) return fmt::format("at rest at {} m{}", to_text(stretch.from), lap);
-  return fmt::format("{:.4g} of the line from {} to {} m, at {} m{}", cycloid(x, 1, 1).s, to_text(stretch.from),
-                     to_text(stretch.to), to_text(at(step).position), lap);
+  return fmt::format("{:.4g} of the line from {} to {} m, at {} m{}", cycloid(x, 1, 1).s,
+                     to_text(stretch.from), to_text(stretch.to), to_text(at(step).position), lap);
 }
 
 const Place& Itinerary::place(double step) const { return within(step).stretch.place; }

@@ -15,10 +15,12 @@ namespace mixloop {
 std::int64_t ticks_of(double seconds, double rate_hz, const Place& place, const std::string& what);
 
 /// A path laid on a time grid: lines and rests, each a whole number of steps. Place along it is counted in
-/// steps from the path's start, so that step k is reached at exactly k / rate; between steps it is a fraction.
+/// steps from the path's start, so that step k is reached at exactly k / rate; between steps it is a
+/// fraction.
 class Itinerary {
  public:
-  /// `rate_hz`: the ticks'; `stages`: steps a tick. Throws as ticks_of does, also for a lap of more than 2^30 steps.
+  /// `rate_hz`: the ticks'; `stages`: steps a tick. Throws as ticks_of does, also for a lap of more than 2^30
+  /// steps.
   Itinerary(const Path& path, double rate_hz, int stages);
 
   std::int64_t lap_steps() const { return stretches_.back().first + stretches_.back().count; }

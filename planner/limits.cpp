@@ -11,16 +11,23 @@ namespace {
 void require(const std::vector<double>& limit, const Model<double>& model, const char* what) {
   if (limit.empty()) return;
   if (limit.size() != static_cast<std::size_t>(model.n()))
-    throw InputError("wrong_size", {}, fmt::format("the {} limit has {} values; expected one for each of the {} motors", what, limit.size(), model.n()));
+    throw InputError("wrong_size", {},
+                     fmt::format("the {} limit has {} values; expected one for each of the {} motors", what,
+                                 limit.size(), model.n()));
   for (const double value : limit)
-    if (!(value > 0)) throw InputError("out_of_range", {}, fmt::format("a {} limit of {}; expected more than 0", what, value));
+    if (!(value > 0))
+      throw InputError("out_of_range", {},
+                       fmt::format("a {} limit of {}; expected more than 0", what, value));
 }
 
-std::span<const double> span_of(const Reference::Values& values) { return {values.data(), static_cast<std::size_t>(values.size())}; }
+std::span<const double> span_of(const Reference::Values& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
 
 }  // namespace
 
-LimitCheck::LimitCheck(const Model<double>& model, const PlanLimits& limits) : model_(model), limits_(limits), ws_(model) {
+LimitCheck::LimitCheck(const Model<double>& model, const PlanLimits& limits)
+    : model_(model), limits_(limits), ws_(model) {
   require(limits.velocity, model, "velocity");
   require(limits.torque, model, "torque");
 }
@@ -30,14 +37,17 @@ void LimitCheck::look(std::int64_t step, const Reference& reference, double t) {
   for (std::size_t i = 0; i < limits_.velocity.size(); ++i) {
     const auto motor = static_cast<Eigen::Index>(i);
     compare(step, i, reference.psid[motor], limits_.velocity[i], false);
-    if (step == last_step_ + 1) compare(step, i, (reference.psi[motor] - last_psi_[motor]) / (t - last_t_), limits_.velocity[i], false);
+    if (step == last_step_ + 1)
+      compare(step, i, (reference.psi[motor] - last_psi_[motor]) / (t - last_t_), limits_.velocity[i], false);
   }
   last_step_ = step;
   last_t_ = t;
   last_psi_ = reference.psi;
   if (limits_.torque.empty()) return;
-  const auto& tau = inverse_dynamics<double>(model_, span_of(reference.psi), span_of(reference.psid), span_of(reference.psidd), t, ws_);
-  for (std::size_t i = 0; i < limits_.torque.size(); ++i) compare(step, i, tau[static_cast<Eigen::Index>(i)], limits_.torque[i], true);
+  const auto& tau = inverse_dynamics<double>(model_, span_of(reference.psi), span_of(reference.psid),
+                                             span_of(reference.psidd), t, ws_);
+  for (std::size_t i = 0; i < limits_.torque.size(); ++i)
+    compare(step, i, tau[static_cast<Eigen::Index>(i)], limits_.torque[i], true);
 }
 
 void LimitCheck::compare(std::int64_t step, std::size_t motor, double value, double limit, bool torque) {
@@ -47,7 +57,8 @@ void LimitCheck::compare(std::int64_t step, std::size_t motor, double value, dou
   const auto& [name, linear] = model_.scene->motors[motor];
   const char* unit = torque ? (linear ? "N" : "N m") : (linear ? "m/s" : "rad/s");
   worst_ = Excess{step, ratio,
-                  fmt::format("the motor {} would {} {:.6g} {}, {:.4g} times its limit of {:.6g} {}", name, torque ? "need" : "move at", std::abs(value), unit, ratio, limit, unit)};
+                  fmt::format("the motor {} would {} {:.6g} {}, {:.4g} times its limit of {:.6g} {}", name,
+                              torque ? "need" : "move at", std::abs(value), unit, ratio, limit, unit)};
 }
 
 }  // namespace mixloop

@@ -7,7 +7,8 @@
 namespace mixloop {
 
 // psi = from + c3 x^3 + c4 x^4 + c5 x^5 with psi, psi' and psi'' given at x = 1.
-MoveToStart::MoveToStart(const Vector& from, const MotorMotion& to, double duration) : from_(from), duration_(duration) {
+MoveToStart::MoveToStart(const Vector& from, const MotorMotion& to, double duration)
+    : from_(from), duration_(duration) {
   const Vector move = to.psi - from, V = duration * to.psid, A = duration * duration * to.psidd;
   c3_ = 10 * move - 4 * V + A / 2;
   c4_ = -15 * move + 7 * V - A;

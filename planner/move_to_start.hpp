@@ -21,8 +21,8 @@ class MoveToStart {
   double duration_;
 };
 
-/// The shortest duration, but at least 1 s, in which no motor is faster than `fastest` says (rad/s or m/s; 0: that
-/// it doesn't say) when moving by `move` from rest to rest.
+/// The shortest duration, but at least 1 s, in which no motor is faster than `fastest` says (rad/s or m/s; 0:
+/// that it doesn't say) when moving by `move` from rest to rest.
 double shortest_move(const Vector& move, const Vector& fastest);
 
 }  // namespace mixloop

@@ -21,7 +21,9 @@ Eigen::Vector3d read_point(const NodePtr& node, const Scene& scene, const std::s
 double read_duration(const Node& node, const std::string& what, bool may_be_zero) {
   const double seconds = number_of(node, kTime, what);
   if (seconds < 0 || (seconds == 0 && !may_be_zero))
-    throw InputError("out_of_range", node.place, fmt::format("{} is {} s; expected {}", what, seconds, may_be_zero ? "0 or more" : "more than 0"));
+    throw InputError(
+        "out_of_range", node.place,
+        fmt::format("{} is {} s; expected {}", what, seconds, may_be_zero ? "0 or more" : "more than 0"));
   return seconds;
 }
 
@@ -29,7 +31,9 @@ void read_line(const NodePtr& node, const NodePtr& duration, const Scene& scene,
   const Mapping line(node, "the line", {"from", "to"});
   const NodePtr from = line.at("from"), to = line.at("to");
   path.vias.push_back({.point = read_point(from, scene, "the line's first point"), .place = from->place});
-  path.vias.push_back({.point = read_point(to, scene, "the line's last point"), .duration = read_duration(*duration, "the path's duration", false), .place = to->place});
+  path.vias.push_back({.point = read_point(to, scene, "the line's last point"),
+                       .duration = read_duration(*duration, "the path's duration", false),
+                       .place = to->place});
 }
 
 Path::Via read_via(const NodePtr& item, const NodePtr& usual_duration, bool is_first, const Scene& scene) {
@@ -38,11 +42,16 @@ Path::Via read_via(const NodePtr& item, const NodePtr& usual_duration, bool is_f
   if (const NodePtr dwell = entry.find("dwell")) via.dwell = read_duration(*dwell, "the dwell", true);
   const NodePtr own = entry.find("duration");
   if (is_first) {
-    if (own) throw InputError("unknown_key", own->place, "no line leads to the first point; expected its duration beside the point that it leads to");
+    if (own)
+      throw InputError(
+          "unknown_key", own->place,
+          "no line leads to the first point; expected its duration beside the point that it leads to");
     return via;
   }
   const NodePtr duration = own ? own : usual_duration;
-  if (!duration) throw InputError("missing_key", item->place, "a via point without 'duration'; expected that of the line that leads to it");
+  if (!duration)
+    throw InputError("missing_key", item->place,
+                     "a via point without 'duration'; expected that of the line that leads to it");
   via.duration = read_duration(*duration, "the duration", false);
   return via;
 }
@@ -55,17 +64,24 @@ Path read_path(const NodePtr& node, const Scene& scene) {
   path.axes = scene.end_effector.axes;
   path.place = node->place;
   if (entry.has("line") == entry.has("via"))
-    throw InputError("missing_key", node->place, entry.has("line") ? "the path has both 'line' and 'via'; expected one of them" : "the path has neither 'line' nor 'via'; expected one of them");
+    throw InputError("missing_key", node->place,
+                     entry.has("line") ? "the path has both 'line' and 'via'; expected one of them"
+                                       : "the path has neither 'line' nor 'via'; expected one of them");
   if (const NodePtr line = entry.find("line")) {
     read_line(line, entry.at("duration"), scene, path);
   } else {
     const auto items = items_of(entry.at("via"), "the via points");
-    if (items.size() < 2) throw InputError("wrong_size", entry.at("via")->place, "a path through one point; expected two or more");
-    for (const auto& item : items) path.vias.push_back(read_via(item, entry.find("duration"), path.vias.empty(), scene));
+    if (items.size() < 2)
+      throw InputError("wrong_size", entry.at("via")->place,
+                       "a path through one point; expected two or more");
+    for (const auto& item : items)
+      path.vias.push_back(read_via(item, entry.find("duration"), path.vias.empty(), scene));
   }
   if (const NodePtr profile = entry.find("profile")) word_of(*profile, {"cycloidal"}, "the profile");
-  if (const NodePtr repeat = entry.find("repeat")) path.repeat = static_cast<int>(whole_number_of(*repeat, 0, kMostLaps, "repeat"));
-  if (const NodePtr approach = entry.find("approach")) path.approach = read_duration(*approach, "the approach", false);
+  if (const NodePtr repeat = entry.find("repeat"))
+    path.repeat = static_cast<int>(whole_number_of(*repeat, 0, kMostLaps, "repeat"));
+  if (const NodePtr approach = entry.find("approach"))
+    path.approach = read_duration(*approach, "the approach", false);
   return path;
 }
 

@@ -15,8 +15,8 @@ namespace mixloop {
 struct Path {
   struct Via {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m; only the scene's axes count
-    double duration = 0;                              ///< of the line that leads here, s; 0 for the first point
-    double dwell = 0;                                 ///< rest here before going on, s
+    double duration = 0;  ///< of the line that leads here, s; 0 for the first point
+    double dwell = 0;     ///< rest here before going on, s
     Place place = {};
   };
   std::vector<Via> vias;              ///< two or more
@@ -29,9 +29,9 @@ struct Path {
 /// Reads an experiment's `path:`, either
 ///   {line: {from: [...], to: [...]}, duration: 1 s}   or
 ///   {via: [{at: [...]}, {at: [...], duration: 0.6 s, dwell: 0.1 s}, ...]}
-/// with optional `profile: cycloidal`, `repeat: N` and `approach: 2 s`. Beside `via`, `duration` is that of lines
-/// which have none of their own. Points have one value for each of the scene's end effector axes, in their order.
-/// Throws InputError.
+/// with optional `profile: cycloidal`, `repeat: N` and `approach: 2 s`. Beside `via`, `duration` is that of
+/// lines which have none of their own. Points have one value for each of the scene's end effector axes, in
+/// their order. Throws InputError.
 Path read_path(const NodePtr& node, const Scene& scene);
 
 }  // namespace mixloop

@@ -7,7 +7,8 @@
 
 namespace mixloop {
 
-Plan::Plan(const Model<double>& model, const Path& path, const Settings& settings) : n_(model.n()), stages_(settings.stages_per_tick) {
+Plan::Plan(const Model<double>& model, const Path& path, const Settings& settings)
+    : n_(model.n()), stages_(settings.stages_per_tick) {
   PlanMaker(model, path, settings).make(*this);
 }
 

@@ -11,14 +11,14 @@
 
 namespace mixloop {
 
-/// The references of a whole experiment, worked out and checked before anything moves: a move of the motors to
-/// the path's start where they don't stand there already, then the path. Reference k is a look-up in a table, so
-/// a repeated tick has the same bytes.
+/// The references of a whole experiment, worked out and checked before anything moves: a move of the motors
+/// to the path's start where they don't stand there already, then the path. Reference k is a look-up in a
+/// table, so a repeated tick has the same bytes.
 class Plan {
  public:
   struct Settings {
     double rate_hz = 1000;
-    int stages_per_tick = 1;        ///< 2 * substeps for control evaluated at every RK4 stage, else 1
+    int stages_per_tick = 1;  ///< 2 * substeps for control evaluated at every RK4 stage, else 1
     PlanLimits limits = {};
     std::vector<double> start_psi = {};  ///< where the motors stand; empty: at the path's start
   };
@@ -32,8 +32,10 @@ class Plan {
   Plan(const Model<double>& model, const Path& path, const Settings& settings);
 
   int n() const { return n_; }
-  std::int64_t ticks() const { return ticks_; }            ///< N: the last tick
-  std::int64_t start_tick() const { return start_tick_; }  ///< where the path begins, after the move to its start
+  std::int64_t ticks() const { return ticks_; }  ///< N: the last tick
+  std::int64_t start_tick() const {
+    return start_tick_;
+  }  ///< where the path begins, after the move to its start
 
   /// At tick k: time k / rate. Before 0 as at 0; past N the last position with rates of zero.
   /// Valid while the plan lives.
@@ -48,8 +50,8 @@ class Plan {
   int n_ = 0;
   int stages_ = 1;
   std::int64_t ticks_ = 0, start_tick_ = 0;
-  std::int64_t lap_steps_ = 0;    ///< of the path's rows in the table: a path that repeats has one lap there
-  std::vector<double> table_;     ///< rows of the move to the start, of a lap, of the end, and of rest past it
+  std::int64_t lap_steps_ = 0;  ///< of the path's rows in the table: a path that repeats has one lap there
+  std::vector<double> table_;   ///< rows of the move to the start, of a lap, of the end, and of rest past it
 };
 
 }  // namespace mixloop

@@ -18,29 +18,41 @@ bool timed(const Formula& formula) {
 }
 
 bool constraints_depend_on_time(const Scene& scene) {
-  return std::any_of(scene.coordinates.begin(), scene.coordinates.end(), [](const auto& coordinate) { return timed(coordinate.constraint); });
+  return std::any_of(scene.coordinates.begin(), scene.coordinates.end(),
+                     [](const auto& coordinate) { return timed(coordinate.constraint); });
 }
 
 bool loads_depend_on_time(const Scene& scene) {
   return std::any_of(scene.loads.begin(), scene.loads.end(), [](const auto& load) {
-    return std::any_of(load.force.begin(), load.force.end(), timed) || std::any_of(load.moment.begin(), load.moment.end(), timed);
+    return std::any_of(load.force.begin(), load.force.end(), timed) ||
+           std::any_of(load.moment.begin(), load.moment.end(), timed);
   });
 }
 
 const Plan::Settings& checked(const Plan::Settings& settings, const Model<double>& model) {
-  if (!(settings.rate_hz > 0) || !std::isfinite(settings.rate_hz)) throw InputError("out_of_range", {}, fmt::format("a rate of {} Hz; expected more than 0", settings.rate_hz));
+  if (!(settings.rate_hz > 0) || !std::isfinite(settings.rate_hz))
+    throw InputError("out_of_range", {},
+                     fmt::format("a rate of {} Hz; expected more than 0", settings.rate_hz));
   if (settings.stages_per_tick < 1) throw InputError("out_of_range", {}, "fewer than one stage a tick");
   if (!settings.start_psi.empty() && settings.start_psi.size() != static_cast<std::size_t>(model.n()))
-    throw InputError("wrong_size", {}, fmt::format("the start has {} values; expected one for each of the {} motors", settings.start_psi.size(), model.n()));
+    throw InputError("wrong_size", {},
+                     fmt::format("the start has {} values; expected one for each of the {} motors",
+                                 settings.start_psi.size(), model.n()));
   return settings;
 }
 
 }  // namespace
 
 PlanMaker::PlanMaker(const Model<double>& model, const Path& path, const Plan::Settings& settings)
-    : model_(model), path_(path), settings_(checked(settings, model)), itinerary_(path, settings.rate_hz, settings.stages_per_tick),
-      ik_(model), measures_(model, ik_.motor_scale()), refusal_(path, itinerary_, ik_, measures_),
-      timed_(constraints_depend_on_time(*model.scene)), timed_loads_(loads_depend_on_time(*model.scene) && !settings.limits.torque.empty()) {}
+    : model_(model),
+      path_(path),
+      settings_(checked(settings, model)),
+      itinerary_(path, settings.rate_hz, settings.stages_per_tick),
+      ik_(model),
+      measures_(model, ik_.motor_scale()),
+      refusal_(path, itinerary_, ik_, measures_),
+      timed_(constraints_depend_on_time(*model.scene)),
+      timed_loads_(loads_depend_on_time(*model.scene) && !settings.limits.torque.empty()) {}
 
 void PlanMaker::make(Plan& plan) {
   const LimitCheck limits_are_sound(model_, settings_.limits);
@@ -61,7 +73,8 @@ void PlanMaker::make(Plan& plan) {
 
 void PlanMaker::require_room(double steps) const {
   if (!(steps * static_cast<double>(reference_size(model_.n())) <= kMostNumbers))
-    throw InputError("too_large", path_.place, fmt::format("{} steps; their table would take more than 1 GB", steps));
+    throw InputError("too_large", path_.place,
+                     fmt::format("{} steps; their table would take more than 1 GB", steps));
 }
 
 std::span<double> PlanMaker::row(Plan& plan, std::int64_t index) const {
@@ -69,7 +82,8 @@ std::span<double> PlanMaker::row(Plan& plan, std::int64_t index) const {
   return std::span(plan.table_).subspan(static_cast<std::size_t>(index) * size, size);
 }
 
-// Of the end effector, the path's own numbers on the scene's axes, and where the motors bring it on the others.
+// Of the end effector, the path's own numbers on the scene's axes, and where the motors bring it on the
+// others.
 void PlanMaker::write(const Follower::Motion& motion, double t, std::span<double> row) {
   const auto& [psi, psid, psidd] = motion.motors;
   PathPoint E = motion.desired;
@@ -95,14 +109,17 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   Follower follower(ik_, itinerary_, delay);
   const double t_start = follower.time(0);
   const auto on_branch = [&](const Vector& psi) { return measures_.on_home_branch(psi, t_start); };
-  if (const IkOutcome outcome = follower.start(on_branch); outcome != IkOutcome::kSolved) refusal_.no_start(outcome, follower.now().motors.psi, t_start);
+  if (const IkOutcome outcome = follower.start(on_branch); outcome != IkOutcome::kSolved)
+    refusal_.no_start(outcome, follower.now().motors.psi, t_start);
   measures_.adopt_scale(follower.now().motors.psi, t_start);
   for (std::int64_t step = 0; step <= steps; ++step) {
     const auto at = static_cast<double>(step);
-    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::kSolved) refusal_.no_way(outcome, follower, at);
+    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::kSolved)
+      refusal_.no_way(outcome, follower, at);
     const double t = follower.time(at);
     write(follower.now(), t, row(plan, step));
-    measures_.evaluate(follower.now().motors.psi, t, samples_.data() + static_cast<std::size_t>(step) * measures_.count());
+    measures_.evaluate(follower.now().motors.psi, t,
+                       samples_.data() + static_cast<std::size_t>(step) * measures_.count());
   }
   check_singularities(plan, delay);
   check_limits(plan, delay);
@@ -114,10 +131,12 @@ void PlanMaker::check_singularities(Plan& plan, std::int64_t delay) {
     const std::int64_t before = std::llround(std::floor(step));
     const Reference known = reference_in(row(plan, before), plan.n_);
     follower.resume({static_cast<double>(before), {}, {known.psi, known.psid, known.psidd}});
-    if (follower.advance(step) == IkOutcome::kSolved) return measures_.evaluate(follower.now().motors.psi, follower.time(step), values);
+    if (follower.advance(step) == IkOutcome::kSolved)
+      return measures_.evaluate(follower.now().motors.psi, follower.time(step), values);
     std::fill_n(values, measures_.count(), 0.0);  // no solution between two solutions: a singularity
   };
-  if (const auto passage = first_passage(samples_, measures_.count(), measures_at)) refusal_.passage(*passage);
+  if (const auto passage = first_passage(samples_, measures_.count(), measures_at))
+    refusal_.passage(*passage);
 }
 
 void PlanMaker::check_limits(Plan& plan, std::int64_t delay) {
@@ -137,7 +156,9 @@ std::int64_t PlanMaker::approach_ticks(Plan& plan, const Vector& move) {
   const Reference start = reference_in(row(plan, 0), plan.n_);
   if (move.cwiseAbs().maxCoeff() <= 1e-12 * std::max(1.0, start.psi.cwiseAbs().maxCoeff())) return 0;
   if (path_.approach) return ticks_of(*path_.approach, settings_.rate_hz, path_.place, "the approach");
-  const Vector fastest = settings_.limits.velocity.empty() ? fastest_on_path(plan) : Vector(Eigen::Map<const Vector>(settings_.limits.velocity.data(), plan.n_));
+  const Vector fastest = settings_.limits.velocity.empty()
+                             ? fastest_on_path(plan)
+                             : Vector(Eigen::Map<const Vector>(settings_.limits.velocity.data(), plan.n_));
   const double ticks = std::ceil(shortest_move(move, fastest) * settings_.rate_hz * (1 - 1e-10));
   require_room(ticks * settings_.stages_per_tick);
   return static_cast<std::int64_t>(ticks);
@@ -146,7 +167,8 @@ std::int64_t PlanMaker::approach_ticks(Plan& plan, const Vector& move) {
 // Of each motor, what any motor of its kind reaches.
 Vector PlanMaker::fastest_on_path(Plan& plan) const {
   Vector each = Vector::Zero(plan.n_), fastest = each;
-  for (std::int64_t step = 0; step < plan.lap_steps_; ++step) each = each.cwiseMax(reference_in(row(plan, step), plan.n_).psid.cwiseAbs());
+  for (std::int64_t step = 0; step < plan.lap_steps_; ++step)
+    each = each.cwiseMax(reference_in(row(plan, step), plan.n_).psid.cwiseAbs());
   const auto linear = [&](int i) { return model_.scene->motors[static_cast<std::size_t>(i)].linear; };
   for (int i = 0; i < plan.n_; ++i)
     for (int j = 0; j < plan.n_; ++j)
@@ -184,7 +206,8 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
     measures_.evaluate(at(step).psi, step / rate, values.data());
     std::copy_n(values.begin(), named, out);
   };
-  if (const auto passage = first_passage(samples, named, measures_at)) refusal_.passage_before(*passage, move.duration());
+  if (const auto passage = first_passage(samples, named, measures_at))
+    refusal_.passage_before(*passage, move.duration());
   if (check.worst()) refusal_.excess_before(*check.worst(), move.duration());
 }
 
@@ -193,7 +216,8 @@ void PlanMaker::rest_past_the_end(Plan& plan) {
   const std::size_t size = reference_size(plan.n_);
   plan.table_.resize(plan.table_.size() + size);
   const auto n = static_cast<std::size_t>(plan.n_);
-  const auto rest = std::span(plan.table_).last(size), end = std::span(plan.table_).last(2 * size).first(size);
+  const auto rest = std::span(plan.table_).last(size),
+             end = std::span(plan.table_).last(2 * size).first(size);
   std::ranges::copy(end.first(n), rest.begin());
   std::ranges::copy(end.subspan(3 * n, 3), rest.subspan(3 * n).begin());
 }

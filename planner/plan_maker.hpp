@@ -6,8 +6,9 @@
 
 namespace mixloop {
 
-/// Makes a plan's table, in the order in which what is wrong with a path is best told: whether it can be reached
-/// at all, what it passes too near, how fast and strong the motors must be; then the move to its start.
+/// Makes a plan's table, in the order in which what is wrong with a path is best told: whether it can be
+/// reached at all, what it passes too near, how fast and strong the motors must be; then the move to its
+/// start.
 class PlanMaker {
  public:
   PlanMaker(const Model<double>& model, const Path& path, const Plan::Settings& settings);

@@ -23,7 +23,12 @@ constexpr std::size_t reference_size(int n) { return 3 * static_cast<std::size_t
 inline Reference reference_in(std::span<const double> row, int n) {
   const double* at = row.data();
   const double* E = at + 3 * n;
-  return {{at, n}, {at + n, n}, {at + 2 * n, n}, Reference::Triple(E), Reference::Triple(E + 3), Reference::Triple(E + 6)};
+  return {{at, n},
+          {at + n, n},
+          {at + 2 * n, n},
+          Reference::Triple(E),
+          Reference::Triple(E + 3),
+          Reference::Triple(E + 6)};
 }
 
 }  // namespace mixloop

@@ -9,21 +9,26 @@
 namespace mixloop {
 
 std::string Refusal::where(double step) const {
-  return fmt::format("{:.6g} s into the path, {}, ", step / itinerary_.step_rate(), itinerary_.describe(step));
+  return fmt::format("{:.6g} s into the path, {}, ", step / itinerary_.step_rate(),
+                     itinerary_.describe(step));
 }
 
 std::string Refusal::where_before(double step, double duration) const {
-  return fmt::format("{:.6g} s into the move to the path's start, which takes {:.6g} s, ", step / itinerary_.step_rate(), duration);
+  return fmt::format("{:.6g} s into the move to the path's start, which takes {:.6g} s, ",
+                     step / itinerary_.step_rate(), duration);
 }
 
 std::string Refusal::text(const Passage& passage) const {
   const std::string name = measures_.name(passage.measure);
   if (passage.crosses) return "it crosses the singularity " + name;
-  return fmt::format("it passes through the singularity {}, or too near to it ({:.2g} of its measure at home)", name, passage.value);
+  return fmt::format(
+      "it passes through the singularity {}, or too near to it ({:.2g} of its measure at home)", name,
+      passage.value);
 }
 
 void Refusal::passage(const Passage& passage) const {
-  throw InputError(passage.crosses ? "crosses_branch" : "singular_path", itinerary_.place(passage.step), where(passage.step) + text(passage));
+  throw InputError(passage.crosses ? "crosses_branch" : "singular_path", itinerary_.place(passage.step),
+                   where(passage.step) + text(passage));
 }
 
 void Refusal::excess(const Excess& excess) const {
@@ -32,11 +37,14 @@ void Refusal::excess(const Excess& excess) const {
 }
 
 void Refusal::passage_before(const Passage& passage, double duration) const {
-  throw InputError(passage.crosses ? "crosses_branch" : "singular_path", path_.place, where_before(passage.step, duration) + text(passage));
+  throw InputError(passage.crosses ? "crosses_branch" : "singular_path", path_.place,
+                   where_before(passage.step, duration) + text(passage));
 }
 
 void Refusal::excess_before(const Excess& excess, double duration) const {
-  throw InputError("over_limit", path_.place, where_before(static_cast<double>(excess.step), duration) + excess.message + "; a longer 'approach' is gentler");
+  throw InputError("over_limit", path_.place,
+                   where_before(static_cast<double>(excess.step), duration) + excess.message +
+                       "; a longer 'approach' is gentler");
 }
 
 // Which singularity it is: that whose measure is least at the last pose before it.
@@ -49,9 +57,12 @@ void Refusal::singular(double step, const Vector& last, double t) const {
 
 void Refusal::no_start(IkOutcome outcome, const Vector& nearest, double t) const {
   const std::string start = "the path's start, " + itinerary_.describe(0) + ", ";
-  if (outcome == IkOutcome::kOtherBranch) throw InputError("crosses_branch", path_.vias[0].place, start + "can be reached only on another branch than home's");
+  if (outcome == IkOutcome::kOtherBranch)
+    throw InputError("crosses_branch", path_.vias[0].place,
+                     start + "can be reached only on another branch than home's");
   if (outcome == IkOutcome::kSingular) singular(0, nearest, t);
-  throw InputError("unreachable", path_.vias[0].place, start + "is out of reach: " + reach_text(0, t, nearest));
+  throw InputError("unreachable", path_.vias[0].place,
+                   start + "is out of reach: " + reach_text(0, t, nearest));
 }
 
 void Refusal::no_way(IkOutcome outcome, Follower& follower, double step) const {
@@ -67,13 +78,15 @@ void Refusal::no_way(IkOutcome outcome, Follower& follower, double step) const {
     farthest = at;
   }
   throw InputError("unreachable", itinerary_.place(end),
-                   where(end) + "it leaves what can be reached; " + where(farthest) + "it is " + reach_text(farthest, follower.time(farthest), last));
+                   where(end) + "it leaves what can be reached; " + where(farthest) + "it is " +
+                       reach_text(farthest, follower.time(farthest), last));
 }
 
 /// How far the point of a step is out of reach, m; 0 within it. `nearby`: motors to start a search from.
 double Refusal::out_of_reach(double step, double t, Vector nearby) const {
   const Eigen::Vector3d point = itinerary_.at(step).position;
-  if (!ik_.arm()) return ik_.position(point, t, nearby) == IkOutcome::kSolved ? 0 : ik_.miss(point, t, nearby);
+  if (!ik_.arm())
+    return ik_.position(point, t, nearby) == IkOutcome::kSolved ? 0 : ik_.miss(point, t, nearby);
   const ThreeAxisArm& arm = *ik_.arm();
   const ArmReach reach = reach_of(arm, point);
   if (reach.beside < 0) return std::abs(arm.lateral) - point.head<2>().norm();
@@ -88,8 +101,11 @@ std::string Refusal::reach_text(double step, double t, Vector nearby) const {
   }
   const ThreeAxisArm& arm = *ik_.arm();
   const ArmReach reach = reach_of(arm, point);
-  if (reach.beside < 0) return fmt::format("{:.6g} m from the base axis; the arm's plane is {:.6g} m from it", point.head<2>().norm(), std::abs(arm.lateral));
-  return fmt::format("{:.6g} m from the shoulder axis; the arm reaches from {:.6g} to {:.6g} m", reach.distance, arm.nearest(), arm.farthest());
+  if (reach.beside < 0)
+    return fmt::format("{:.6g} m from the base axis; the arm's plane is {:.6g} m from it",
+                       point.head<2>().norm(), std::abs(arm.lateral));
+  return fmt::format("{:.6g} m from the shoulder axis; the arm reaches from {:.6g} to {:.6g} m",
+                     reach.distance, arm.nearest(), arm.farthest());
 }
 
 }  // namespace mixloop

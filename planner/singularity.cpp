@@ -18,7 +18,8 @@ double signed_distance_to_singular(const Eigen::Matrix3d& A, int n) {
     const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0), norm = A.topLeftCorner<2, 2>().norm();
     return norm > 0 ? det / norm : 0;
   }
-  const Eigen::Vector3d x = A.col(1).cross(A.col(2)), y = A.col(2).cross(A.col(0)), z = A.col(0).cross(A.col(1));
+  const Eigen::Vector3d x = A.col(1).cross(A.col(2)), y = A.col(2).cross(A.col(0)),
+                        z = A.col(0).cross(A.col(1));
   const double norm = std::sqrt(x.squaredNorm() + y.squaredNorm() + z.squaredNorm());
   return norm > 0 ? A.col(0).dot(x) / norm : 0;
 }
@@ -26,7 +27,11 @@ double signed_distance_to_singular(const Eigen::Matrix3d& A, int n) {
 }  // namespace
 
 SingularityMeasures::SingularityMeasures(const Model<double>& model, const Vector& motor_scale)
-    : model_(model), ws_(model), motor_scale_(motor_scale), scale_(model.scene->singularities.size() + 1, 1.0), buffer_(scale_.size()) {
+    : model_(model),
+      ws_(model),
+      motor_scale_(motor_scale),
+      scale_(model.scene->singularities.size() + 1, 1.0),
+      buffer_(scale_.size()) {
   const Vector home = Eigen::Map<const Vector>(model.scene->home.data(), model.n());
   evaluate_raw(home, 0, scale_.data());
 }
@@ -43,9 +48,12 @@ void SingularityMeasures::evaluate_raw(const Vector& psi, double t, double* valu
   const auto symbol = [&](int number) -> double {
     if (symbols.is_q(number)) return ws_.q[number - symbols.q0];
     if (symbols.is_psi(number)) return psi[number - symbols.psi0];
-    return number == Symbols::kTime ? t : model_.parameters[static_cast<std::size_t>(number - Symbols::kParameter0)];
+    return number == Symbols::kTime
+               ? t
+               : model_.parameters[static_cast<std::size_t>(number - Symbols::kParameter0)];
   };
-  for (const auto& singularity : scene.singularities) *values++ = mixloop::evaluate<double>(singularity.measure, symbol);
+  for (const auto& singularity : scene.singularities)
+    *values++ = mixloop::evaluate<double>(singularity.measure, symbol);
   *values = signed_distance_to_singular(scaled_jacobian(), model_.n());
 }
 
@@ -54,12 +62,14 @@ Eigen::Matrix3d SingularityMeasures::scaled_jacobian() {
   frame_variations(model_, ws_);
   const auto& end_effector = model_.scene->end_effector;
   const auto& path = model_.path(end_effector.frame);
-  linear_variations<double>(ws_.frames[static_cast<std::size_t>(end_effector.frame)], model_.end_effector_point, ws_.D);
+  linear_variations<double>(ws_.frames[static_cast<std::size_t>(end_effector.frame)],
+                            model_.end_effector_point, ws_.D);
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < path.size(); ++k)
     for (int i = 0; i < model_.n(); ++i)
       for (int j = 0; j < model_.n(); ++j)
-        J(i, j) += ws_.D(end_effector.axes[static_cast<std::size_t>(i)], static_cast<Eigen::Index>(k)) * ws_.C(path[k], j) * motor_scale_[j];
+        J(i, j) += ws_.D(end_effector.axes[static_cast<std::size_t>(i)], static_cast<Eigen::Index>(k)) *
+                   ws_.C(path[k], j) * motor_scale_[j];
   return J;
 }
 
@@ -86,7 +96,8 @@ namespace {
 /// One measure along a path, at whole steps and between them.
 class Profile {
  public:
-  Profile(const std::vector<double>& samples, std::size_t measures, std::size_t which, const std::function<void(double, double*)>& at)
+  Profile(const std::vector<double>& samples, std::size_t measures, std::size_t which,
+          const std::function<void(double, double*)>& at)
       : samples_(samples), measures_(measures), which_(which), at_(at), values_(measures) {}
 
   std::size_t size() const { return samples_.size() / measures_; }
@@ -110,12 +121,13 @@ class Profile {
   }
 
  private:
-  /// A sample below both neighbours, so far down that the measure, as steep beside it as between samples, could
-  /// pass the bound between them.
+  /// A sample below both neighbours, so far down that the measure, as steep beside it as between samples,
+  /// could pass the bound between them.
   bool may_dip(std::size_t i) const {
     const double here = (*this)[i];
     const double before = i > 0 ? (*this)[i - 1] : here, after = i + 1 < size() ? (*this)[i + 1] : here;
-    return here <= before && here <= after && here - 2 * (std::max(before, after) - here) < SingularityMeasures::kLeast;
+    return here <= before && here <= after &&
+           here - 2 * (std::max(before, after) - here) < SingularityMeasures::kLeast;
   }
 
   Passage crossing(double positive, double negative) {
@@ -127,12 +139,15 @@ class Profile {
     return {negative, which_, between(negative), true};
   }
 
-  /// The nearest approach to zero next to sample i (golden section; Kiefer 1953), or a crossing on the way there.
+  /// The nearest approach to zero next to sample i (golden section; Kiefer 1953), or a crossing on the way
+  /// there.
   Passage minimum(std::size_t i) {
     while (i + 1 < size() && (*this)[i + 1] < (*this)[i] && (*this)[i + 1] > 0) ++i;
-    double left = static_cast<double>(i > 0 ? i - 1 : i), right = static_cast<double>(std::min(i + 1, size() - 1));
+    double left = static_cast<double>(i > 0 ? i - 1 : i),
+           right = static_cast<double>(std::min(i + 1, size() - 1));
     constexpr double kGolden = 0.6180339887498949;
-    double x1 = right - kGolden * (right - left), x2 = left + kGolden * (right - left), f1 = between(x1), f2 = between(x2);
+    double x1 = right - kGolden * (right - left), x2 = left + kGolden * (right - left), f1 = between(x1),
+           f2 = between(x2);
     for (int k = 0; k < 50 && f1 > 0 && f2 > 0; ++k) {
       if (f1 < f2) {
         right = x2, x2 = x1, f2 = f1;
@@ -144,7 +159,8 @@ class Profile {
     }
     if (!(f1 > 0) || !(f2 > 0)) return crossing(left, f1 > 0 ? x2 : x1);
     const bool sampled = (*this)[i] <= std::min(f1, f2);
-    return {sampled ? static_cast<double>(i) : (x1 + x2) / 2, which_, sampled ? (*this)[i] : std::min(f1, f2), false};
+    return {sampled ? static_cast<double>(i) : (x1 + x2) / 2, which_, sampled ? (*this)[i] : std::min(f1, f2),
+            false};
   }
 
   const std::vector<double>& samples_;

@@ -10,9 +10,9 @@
 
 namespace mixloop {
 
-/// What no path may take through zero: each of the scene's `singularities`, and the smallest singular value of the
-/// end effector's Jacobian (in the Frobenius norm, motors in units of their `motor_scale`, with the determinant's
-/// sign). Each is divided by its value at home: 1 there, positive on home's branch.
+/// What no path may take through zero: each of the scene's `singularities`, and the smallest singular value
+/// of the end effector's Jacobian (in the Frobenius norm, motors in units of their `motor_scale`, with the
+/// determinant's sign). Each is divided by its value at home: 1 there, positive on home's branch.
 class SingularityMeasures {
  public:
   /// Below this much of the value at home a path is too near.
@@ -42,14 +42,15 @@ class SingularityMeasures {
 
 /// Where a path comes too near to a singularity.
 struct Passage {
-  double step = 0;          ///< place along the path
+  double step = 0;  ///< place along the path
   std::size_t measure = 0;
-  double value = 0;         ///< of the measure there
-  bool crosses = false;     ///< it changes sign
+  double value = 0;      ///< of the measure there
+  bool crosses = false;  ///< it changes sign
 };
 
-/// The first such place. `samples`: count() measures at each whole step 0, 1, ...; `at(step, values)` evaluates
-/// between steps, where a sample shows that it may pass zero, or come below the bound, between two of them.
+/// The first such place. `samples`: count() measures at each whole step 0, 1, ...; `at(step, values)`
+/// evaluates between steps, where a sample shows that it may pass zero, or come below the bound, between two
+/// of them.
 std::optional<Passage> first_passage(const std::vector<double>& samples, std::size_t measures,
                                      const std::function<void(double step, double* values)>& at);
 

@@ -22,18 +22,24 @@ std::vector<const Link*> chain_of(const Model<double>& model) {
   return chain;
 }
 
-/// Of each coordinate: whether it is affine in the motors, through all that it refers to, and independent of time.
+/// Of each coordinate: whether it is affine in the motors, through all that it refers to, and independent of
+/// time.
 std::vector<bool> affine_coordinates(const Scene& scene) {
   const Symbols symbols(scene);
   std::vector<bool> affine(scene.coordinates.size(), false);
-  const auto varies = [&](int symbol) { return symbol == Symbols::kTime || symbols.is_psi(symbol) || symbols.is_q(symbol); };
+  const auto varies = [&](int symbol) {
+    return symbol == Symbols::kTime || symbols.is_psi(symbol) || symbols.is_q(symbol);
+  };
   const auto may_stand = [&](const Formula::Node& node) {
     if (node.op != Formula::Operator::kSymbol) return true;
-    return node.symbol != Symbols::kTime && (!symbols.is_q(node.symbol) || affine[static_cast<std::size_t>(node.symbol - symbols.q0)]);
+    return node.symbol != Symbols::kTime &&
+           (!symbols.is_q(node.symbol) || affine[static_cast<std::size_t>(node.symbol - symbols.q0)]);
   };
   for (const int j : scene.evaluation_order) {
     const Formula& constraint = scene.coordinates[static_cast<std::size_t>(j)].constraint;
-    affine[static_cast<std::size_t>(j)] = degree(constraint, varies) <= 1 && std::all_of(constraint.nodes.begin(), constraint.nodes.end(), may_stand);
+    affine[static_cast<std::size_t>(j)] =
+        degree(constraint, varies) <= 1 &&
+        std::all_of(constraint.nodes.begin(), constraint.nodes.end(), may_stand);
   }
   return affine;
 }
@@ -42,7 +48,9 @@ bool has_the_form(const Model<double>& model, const std::vector<const Link*>& ch
   if (model.n() != 3 || model.scene->end_effector.axes.size() != 3 || chain.size() != 3) return false;
   const auto affine = affine_coordinates(*model.scene);
   for (const Link* link : chain)
-    if (link->coordinate < 0 || link->prismatic || link->scale == 0 || !affine[static_cast<std::size_t>(link->coordinate)]) return false;
+    if (link->coordinate < 0 || link->prismatic || link->scale == 0 ||
+        !affine[static_cast<std::size_t>(link->coordinate)])
+      return false;
   return chain[0]->cos_alpha == 0 && chain[1]->cos_alpha == 1;
 }
 

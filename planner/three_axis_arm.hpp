@@ -11,8 +11,8 @@
 namespace mixloop {
 
 /// An end effector behind three revolute axes, the first along Z0, the others parallel to each other and
-/// perpendicular to it (base, shoulder, elbow), turned by three motors in any affine mixture: the family of the
-/// paper's robot, whose inverse kinematics has a closed form.
+/// perpendicular to it (base, shoulder, elbow), turned by three motors in any affine mixture: the family of
+/// the paper's robot, whose inverse kinematics has a closed form.
 struct ThreeAxisArm {
   double height = 0;   ///< of the shoulder axis over the origin, m
   double side = 1;     ///< +1 or -1: which way the shoulder axis lies, sin(alpha) of the base
@@ -40,14 +40,14 @@ std::optional<ThreeAxisArm> find_three_axis_arm(const Model<double>& model);
 
 /// A point in the arm's own terms.
 struct ArmReach {
-  double beside = 0;    ///< squared distance from the base axis beyond the arm's plane's; below 0: none reaches it
+  double beside =
+      0;  ///< squared distance from the base axis beyond the arm's plane's; below 0: none reaches it
   double distance = 0;  ///< from the shoulder axis, in the arm's plane; from nearest() to farthest()
 };
 ArmReach reach_of(const ThreeAxisArm& arm, const Eigen::Vector3d& point);
 
-
-/// The angles that bring the end effector to a point (x, y, z) on the arm's branch, each up to whole turns; not
-/// finite where the point is out of reach. T: double, or a Taylor series for the rates as well.
+/// The angles that bring the end effector to a point (x, y, z) on the arm's branch, each up to whole turns;
+/// not finite where the point is out of reach. T: double, or a Taylor series for the rates as well.
 template <class T>
 std::array<T, 3> arm_angles(const ThreeAxisArm& arm, const std::array<T, 3>& p) {
   using std::atan2, std::cos, std::sin, std::sqrt;
@@ -62,7 +62,8 @@ std::array<T, 3> arm_angles(const ThreeAxisArm& arm, const std::array<T, 3>& p) 
   const T open = (number(arm.farthest()) - R) * (number(arm.farthest()) + R);
   const T closed = (R - number(arm.nearest())) * (R + number(arm.nearest()));
   const T elbow = number(2 * arm.elbow) * atan2(sqrt(open), sqrt(closed));
-  const T shoulder = atan2(Y, X) - atan2(number(arm.fore) * sin(elbow), number(arm.upper) + number(arm.fore) * cos(elbow));
+  const T shoulder =
+      atan2(Y, X) - atan2(number(arm.fore) * sin(elbow), number(arm.upper) + number(arm.fore) * cos(elbow));
   return {base, shoulder, elbow};
 }
 

@@ -39,7 +39,9 @@ TEST(Cycloid, HasTheValuesByHandAtHalfAndQuarter) {
 // Against (34) and its derivatives in 113 bits; a few roundings, relative to each value, down to x = 1e-100.
 TEST(Cycloid, IsExactToRoundOff) {
   const Wide two_pi = 2 * acos(Wide(-1));
-  const auto relative = [](double found, const Wide& expected) { return std::abs(static_cast<double>((found - expected) / expected)); };
+  const auto relative = [](double found, const Wide& expected) {
+    return std::abs(static_cast<double>((found - expected) / expected));
+  };
   for (int i = 1; i < 4000; ++i) {
     const double x = i < 2000 ? i / 2000.0 : std::pow(10.0, -(i - 1999) / 30.0);
     const auto [s, sd, sdd] = cycloid(x, 0.7, 3);

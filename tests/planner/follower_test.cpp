@@ -8,7 +8,8 @@
 namespace mixloop {
 namespace {
 
-// Newton's method from one tick's solution to the next, beside the closed form: round-off times the condition.
+// Newton's method from one tick's solution to the next, beside the closed form: round-off times the
+// condition.
 TEST(Follower, GoesTheSameWayByBothMethods) {
   const auto model = paper_robot();
   InverseKinematics closed(model), general(model, InverseKinematics::Method::kNewton);
@@ -20,8 +21,12 @@ TEST(Follower, GoesTheSameWayByBothMethods) {
     ASSERT_EQ(left.advance(k), IkOutcome::kSolved);
     ASSERT_EQ(right.advance(k), IkOutcome::kSolved);
     EXPECT_LT((left.now().motors.psi - right.now().motors.psi).norm(), 1e-11) << k;
-    EXPECT_LT((left.now().motors.psid - right.now().motors.psid).norm(), 1e-11 * (1 + left.now().motors.psid.norm())) << k;
-    EXPECT_LT((left.now().motors.psidd - right.now().motors.psidd).norm(), 1e-11 * (1 + left.now().motors.psidd.norm())) << k;
+    EXPECT_LT((left.now().motors.psid - right.now().motors.psid).norm(),
+              1e-11 * (1 + left.now().motors.psid.norm()))
+        << k;
+    EXPECT_LT((left.now().motors.psidd - right.now().motors.psidd).norm(),
+              1e-11 * (1 + left.now().motors.psidd.norm()))
+        << k;
   }
 }
 

@@ -34,7 +34,8 @@ transforms:
 bodies: [{{frame: 3, mass: 1}}]
 end_effector: {{frame: 3, point: [0.05, 0.1, -0.07]}}
 home: {{c: {} deg}}
-)", side, home);
+)",
+                     side, home);
 }
 
 // By hand: shoulder at the origin, links of 1 m, motors at the joints.
@@ -63,7 +64,8 @@ home: {c: 1}
   // The shoulder alone turns (1, 0, 1) about the origin.
   ik.position_from_home({1, 0, 1}, 0, psi);
   Vector psid, psidd;
-  ASSERT_EQ(ik.rates({.position = {1, 0, 1}, .velocity = {-1, 0, 1}}, 0, psi, psid, psidd), IkOutcome::kSolved);
+  ASSERT_EQ(ik.rates({.position = {1, 0, 1}, .velocity = {-1, 0, 1}}, 0, psi, psid, psidd),
+            IkOutcome::kSolved);
   EXPECT_LT((psid - Vector3d(0, 1, 0)).norm(), 1e-15);
 }
 
@@ -96,7 +98,8 @@ Vector random_pose(const ThreeAxisArm& arm, std::mt19937_64& random) {
   std::uniform_real_distribution<double> angle(-kPi, kPi), bent(0.1, kPi - 0.1);
   for (;;) {
     const Vector3d angles(angle(random), angle(random), arm.elbow * bent(random));
-    const double radial = arm.base + arm.upper * std::cos(angles[1]) + arm.fore * std::cos(angles[1] + angles[2]);
+    const double radial =
+        arm.base + arm.upper * std::cos(angles[1]) + arm.fore * std::cos(angles[1] + angles[2]);
     if (arm.front * radial > 0.05) return arm.motors(angles);
   }
 }
@@ -105,11 +108,16 @@ class Family : public testing::TestWithParam<int> {
  protected:
   static Model<double> model() {
     switch (GetParam()) {
-      case 0: return paper_robot();
-      case 1: return paper_robot_elbow_down();
-      case 2: return model_from(crooked_arm(90, -200));
-      case 3: return model_from(crooked_arm(-90, 300));
-      default: return model_from(crooked_arm(-90, -900));
+      case 0:
+        return paper_robot();
+      case 1:
+        return paper_robot_elbow_down();
+      case 2:
+        return model_from(crooked_arm(90, -200));
+      case 3:
+        return model_from(crooked_arm(-90, 300));
+      default:
+        return model_from(crooked_arm(-90, -900));
     }
   }
 };
@@ -131,7 +139,8 @@ TEST_P(Family, FindsThePointThatForwardKinematicsGave) {
     // The same pose, up to whole turns of the axes: near the borders angles are worse known than points.
     const Vector3d turns = (ik.arm()->angles(psi) - ik.arm()->angles(pose)) / (2 * kPi);
     EXPECT_LT((turns - turns.array().round().matrix()).norm(), 1e-12) << sample;
-    const Vector3d from_home = ik.arm()->angles(psi) - ik.arm()->angles(Eigen::Map<const Vector>(arm_model.scene->home.data(), 3));
+    const Vector3d from_home =
+        ik.arm()->angles(psi) - ik.arm()->angles(Eigen::Map<const Vector>(arm_model.scene->home.data(), 3));
     EXPECT_LE(from_home.cwiseAbs().maxCoeff(), kPi * (1 + 1e-12));
     Vector again = pose;  // as a continuation it comes back as it was
     ASSERT_EQ(ik.position(point, 0, again), IkOutcome::kSolved);
@@ -151,7 +160,9 @@ TEST_P(Family, AgreesWithTheGeneralMethodInPositionAndRates) {
     const PathPoint point{.position = closed.forward(pose, zero, zero, 0).position,
                           .velocity = {rate(random), rate(random), rate(random)},
                           .acceleration = {rate(random), rate(random), rate(random)}};
-    Vector psi = closed.arm()->motors(closed.arm()->angles(pose) + Vector3d(nudge(random), nudge(random), nudge(random))), other = psi;
+    Vector psi = closed.arm()->motors(closed.arm()->angles(pose) +
+                                      Vector3d(nudge(random), nudge(random), nudge(random))),
+           other = psi;
     ASSERT_EQ(closed.position(point.position, 0, psi), IkOutcome::kSolved);
     ASSERT_EQ(general.position(point.position, 0, other), IkOutcome::kSolved) << sample;
     EXPECT_LT((psi - other).cwiseQuotient(closed.motor_scale()).norm(), 1e-11) << sample;
@@ -168,7 +179,8 @@ TEST_P(Family, AgreesWithTheGeneralMethodInPositionAndRates) {
   }
 }
 
-// Central differences in 113 bits of the closed form along the paper's line: step 1e-10 s, relative error 1e-14.
+// Central differences in 113 bits of the closed form along the paper's line: step 1e-10 s, relative error
+// 1e-14.
 TEST(InverseKinematics, RatesAreTheDerivativesOfThePosition) {
   const auto model = paper_robot();
   InverseKinematics ik(model);
@@ -190,7 +202,8 @@ TEST(InverseKinematics, RatesAreTheDerivativesOfThePosition) {
     Vector3d rate, acceleration;
     for (std::size_t i = 0; i < 3; ++i) {
       rate[static_cast<int>(i)] = static_cast<double>(Wide((after[i] - before[i]) / (2 * h)));
-      acceleration[static_cast<int>(i)] = static_cast<double>(Wide((after[i] - 2 * now[i] + before[i]) / (h * h)));
+      acceleration[static_cast<int>(i)] =
+          static_cast<double>(Wide((after[i] - 2 * now[i] + before[i]) / (h * h)));
     }
     EXPECT_LT((arm.B * psid - rate).norm(), 1e-13 * rate.norm()) << k;
     EXPECT_LT((arm.B * psidd - acceleration).norm(), 1e-12 * acceleration.norm()) << k;

@@ -17,7 +17,9 @@ inline Model<double> model_of(Scene scene) {
   return make_model<double>(shared, parameters);
 }
 
-inline Model<double> model_from(const std::string& text) { return model_of(load_scene(parse_document(text, "scene.yaml"))); }
+inline Model<double> model_from(const std::string& text) {
+  return model_of(load_scene(parse_document(text, "scene.yaml")));
+}
 
 /// The paper's robot; `changes` are entries to override.
 inline Model<double> paper_robot(const std::vector<std::pair<std::string, std::string>>& changes = {}) {
@@ -27,7 +29,9 @@ inline Model<double> paper_robot(const std::vector<std::pair<std::string, std::s
 }
 
 /// The same with the other elbow: q5 = -46 deg, q4 = 161 deg at home.
-inline Model<double> paper_robot_elbow_down() { return paper_robot({{"home", "{psi2: -1280 deg, psi3: -64 deg}"}}); }
+inline Model<double> paper_robot_elbow_down() {
+  return paper_robot({{"home", "{psi2: -1280 deg, psi3: -64 deg}"}});
+}
 
 /// Two links of 1 m in the plane x, y; motors at the joints, 1 kg at the tip. At home the elbow is at 90 deg.
 inline const char* const kPlanarArm = R"(
@@ -58,15 +62,16 @@ end_effector: {frame: 2, axes: [x, z]}
 home: {b: 90 deg}
 )";
 
-/// Three slides along Z, X, Y; the motors of the last two are linear, the first turns a spindle of 10 mm a turn.
-/// The slide along X rides on something that moves by itself: 0.1 m sin(2 t).
+/// Three slides along Z, X, Y; the motors of the last two are linear, the first turns a spindle of 10 mm a
+/// turn. The slide along X rides on something that moves by itself: 0.1 m sin(2 t).
 inline std::string gantry(bool moving) {
   return std::string(R"(
 motors: {a: rotary, b: linear, c: linear}
 coordinates: [z, x, y]
 constraints:
   z: 10 mm * a / (2*pi)
-  x: )") + (moving ? "b + 0.1 m * sin(2*t/(1 s))" : "b") + R"(
+  x: )") +
+         (moving ? "b + 0.1 m * sin(2*t/(1 s))" : "b") + R"(
   y: c
 transforms:
   - {from: 0, to: 1, s: z, alpha: -90 deg, theta: -90 deg}
@@ -95,6 +100,7 @@ inline Path path_from(const std::string& text, const Model<double>& model) {
   return read_path(parse_document(text, "path.yaml"), *model.scene);
 }
 
-inline const char* const kPaperPath = "{line: {from: [0.3, 0.0, 0.8], to: [-0.3, 0.4, 0.3]}, profile: cycloidal, duration: 1 s}";
+inline const char* const kPaperPath =
+    "{line: {from: [0.3, 0.0, 0.8], to: [-0.3, 0.4, 0.3]}, profile: cycloidal, duration: 1 s}";
 
 }  // namespace mixloop

@@ -6,7 +6,8 @@
 namespace mixloop {
 namespace {
 
-// By hand: from rest to rest it is 10 x^3 - 15 x^4 + 6 x^5, half the way at half the time, at 15/8 of the mean rate.
+// By hand: from rest to rest it is 10 x^3 - 15 x^4 + 6 x^5, half the way at half the time, at 15/8 of the
+// mean rate.
 TEST(MoveToStart, FromRestToRestIsTheQuinticByHand) {
   const Vector from = Eigen::Vector2d(1, -2), to = Eigen::Vector2d(5, 2), zero = Vector::Zero(2);
   const MoveToStart move(from, {to, zero, zero}, 2);

@@ -23,18 +23,20 @@ bool same_bytes(const Reference& a, const Reference& b) {
   return std::memcmp(a.psi.data(), b.psi.data(), size) == 0;
 }
 
-/// Holds each reference of a plan against forward kinematics at its time: what is desired of the end effector is
-/// what the desired motors do.
+/// Holds each reference of a plan against forward kinematics at its time: what is desired of the end effector
+/// is what the desired motors do.
 void expect_consistent(const Model<double>& model, const Plan& plan, double rate_hz) {
   Workspace<double> ws(model);
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
     const Reference reference = plan.at(k);
     const Vector psi = reference.psi, psid = reference.psid, psidd = reference.psidd;
-    const auto& E = end_effector<double>(model, span_of(psi), span_of(psid), span_of(psidd), static_cast<double>(k) / rate_hz, ws);
+    const auto& E = end_effector<double>(model, span_of(psi), span_of(psid), span_of(psidd),
+                                         static_cast<double>(k) / rate_hz, ws);
     // Rounding, times condition numbers up to a hundred.
     ASSERT_LT((E.position - reference.position).norm(), 1e-14) << k;
     ASSERT_LT((E.velocity - reference.velocity).norm(), 1e-13 * (1 + reference.velocity.norm())) << k;
-    ASSERT_LT((E.acceleration - reference.acceleration).norm(), 1e-12 * (1 + reference.acceleration.norm())) << k;
+    ASSERT_LT((E.acceleration - reference.acceleration).norm(), 1e-12 * (1 + reference.acceleration.norm()))
+        << k;
   }
 }
 
@@ -69,10 +71,13 @@ TEST(Plan, TracksThePapersLineOnThePapersBranch) {
 
 TEST(Plan, HoldsTheEndPastItsEnd) {
   const Plan plan = plan_of(paper_robot(), kPaperPath);
-  for (const std::int64_t k : {std::int64_t{1001}, std::int64_t{1} << 40, std::numeric_limits<std::int64_t>::max()}) {
+  for (const std::int64_t k :
+       {std::int64_t{1001}, std::int64_t{1} << 40, std::numeric_limits<std::int64_t>::max()}) {
     EXPECT_EQ(Vector(plan.at(k).psi), Vector(plan.at(1000).psi));
     EXPECT_EQ(Vector3d(plan.at(k).position), Vector3d(-0.3, 0.4, 0.3));
-    EXPECT_EQ(plan.at(k).psid.norm() + plan.at(k).psidd.norm() + plan.at(k).velocity.norm() + plan.at(k).acceleration.norm(), 0);
+    EXPECT_EQ(plan.at(k).psid.norm() + plan.at(k).psidd.norm() + plan.at(k).velocity.norm() +
+                  plan.at(k).acceleration.norm(),
+              0);
   }
   EXPECT_TRUE(same_bytes(plan.at(-1), plan.at(0)));
   EXPECT_TRUE(same_bytes(plan.at(std::numeric_limits<std::int64_t>::min()), plan.at(0)));
@@ -86,13 +91,15 @@ TEST(Plan, GivesTheSameBytesAtATickForAnyNumberOfStages) {
     EXPECT_EQ(staged.ticks(), 1000);
     for (int k = 0; k <= 1000; ++k) EXPECT_TRUE(same_bytes(staged.at_stage(k, 0), ticks.at(k))) << k;
     const Plan fine = plan_of(model, kPaperPath, {.rate_hz = 1000.0 * stages});
-    for (int k = 0; k < 1000; ++k) EXPECT_TRUE(same_bytes(staged.at_stage(k, 1), fine.at(stages * k + 1))) << k;
+    for (int k = 0; k < 1000; ++k)
+      EXPECT_TRUE(same_bytes(staged.at_stage(k, 1), fine.at(stages * k + 1))) << k;
   }
 }
 
 TEST(Plan, RepeatsALapWithTheSameBytes) {
   const auto model = paper_robot();
-  const Plan plan = plan_of(model, "{line: {from: [0.3, 0.0, 0.8], to: [-0.3, 0.4, 0.3]}, duration: 1 s, repeat: 5}");
+  const Plan plan =
+      plan_of(model, "{line: {from: [0.3, 0.0, 0.8], to: [-0.3, 0.4, 0.3]}, duration: 1 s, repeat: 5}");
   EXPECT_EQ(plan.ticks(), 10'000);
   for (std::int64_t k = 0; k < 2000; ++k) EXPECT_TRUE(same_bytes(plan.at(k), plan.at(k + 3 * 2000)));
   for (std::int64_t k = 0; k <= 1000; ++k) EXPECT_LT((plan.at(k).psi - plan.at(2000 - k).psi).norm(), 1e-12);
@@ -103,7 +110,10 @@ TEST(Plan, RepeatsALapWithTheSameBytes) {
 
 TEST(Plan, RestsAtViaPoints) {
   const auto model = paper_robot();
-  const Plan plan = plan_of(model, "{via: [{at: [0.3, 0, 0.8]}, {at: [0.1, 0.3, 0.5], duration: 0.6 s, dwell: 0.1 s}, {at: [-0.3, 0.4, 0.3], duration: 0.5 s}]}", {.rate_hz = 2000});
+  const Plan plan = plan_of(model,
+                            "{via: [{at: [0.3, 0, 0.8]}, {at: [0.1, 0.3, 0.5], duration: 0.6 s, dwell: 0.1 "
+                            "s}, {at: [-0.3, 0.4, 0.3], duration: 0.5 s}]}",
+                            {.rate_hz = 2000});
   EXPECT_EQ(plan.ticks(), 2400);
   for (int k = 1200; k <= 1400; ++k) {
     EXPECT_EQ(Vector3d(plan.at(k).position), Vector3d(0.1, 0.3, 0.5));
@@ -164,7 +174,8 @@ TEST(Plan, FollowsPlanarAndPrismaticScenes) {
 // The constraints depend on time: no lap is like the other, and the move to the start meets a moving target.
 TEST(Plan, FollowsScenesThatMoveByThemselves) {
   const auto model = model_from(gantry(true));
-  const std::string path = "{line: {from: [0, 0, 0], to: [1, 2, 0.05]}, duration: 0.5 s, repeat: 2, approach: 0.3 s}";
+  const std::string path =
+      "{line: {from: [0, 0, 0], to: [1, 2, 0.05]}, duration: 0.5 s, repeat: 2, approach: 0.3 s}";
   expect_consistent(model, plan_of(model, path), 1000);
   const Plan plan = plan_of(model, path, {.start_psi = {1, 2, 3}});
   EXPECT_EQ(plan.start_tick(), 300);
