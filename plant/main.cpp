@@ -62,12 +62,12 @@ class PlantProcess {
     try {
       const Ending ending = lockstep.run();
       if (ending == Ending::interrupted || ending == Ending::stopped) recorder_.interrupted();
-    } catch (const RunFault&) {
+    } catch (const RunFault& fault) {
       recorder_.interrupted();
-      finish();
+      finish(&fault);
       throw;
     }
-    finish();
+    finish(nullptr);
     return status_;
   }
 
@@ -101,15 +101,15 @@ class PlantProcess {
     report_.tick(k);
     if (k == plan_.ticks()) {
       if (!options_.hold) return true;
-      finish();
+      finish(nullptr);
       if (options_.report_fd < 0) fmt::print(stderr, "mixloop-plant: holding the end point; Ctrl-C ends it\n");
     }
     plant_.advance();
     return recorder_.state(k + 1, plant_.psi(), plant_.psid(), plant_.work());
   }
 
-  /// Judges and keeps the run, once.
-  void finish() {
+  /// Judges and keeps the run, once; what was recorded before a fault is kept too.
+  void finish(const RunFault* fault) {
     if (finished_) return;
     finished_ = true;
     const LockstepReport& bus = lockstep_->report();
@@ -124,9 +124,15 @@ class PlantProcess {
     result["slipped"] = seconds(bus.slipped);
     result["rejected"] = bus.rejects.total();
     result["joined_late"] = bus.joined_late > 0;
+    if (fault) {
+      result["verdict"] = "fault";
+      result["exit_status"] = kRunFault;
+      result["error"] = {{"code", fault->code}, {"message", fault->what()}, {"where", ""}};
+    }
     status_ = result.at("exit_status").get<int>();
     if (!options_.out.empty()) keep(options_.out, experiment_, plan_, recorder_, result);
     report_.result(result);
+    if (fault) return;  // the command line tells it
     if (options_.json)
       print_json(result);
     else if (options_.report_fd < 0)
