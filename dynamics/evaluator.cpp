@@ -58,46 +58,46 @@ void Dynamics::set_parameters(std::span<const double> parameters) {
 
 void Dynamics::forward_dynamics(std::span<const double> psi, std::span<const double> psid,
                                 std::span<const double> tau, double t, std::span<double> psidd) noexcept {
-  routine(Purpose::forward_dynamics).evaluate({psi.data(), psid.data(), tau.data(), t}, psidd.data());
+  routine(Purpose::forward_dynamics).run(psi.data(), psid.data(), tau.data(), t, psidd.data());
 }
 
 void Dynamics::mass_times(std::span<const double> psi, std::span<const double> a, double t,
                           std::span<double> out) noexcept {
-  routine(Purpose::mass_times).evaluate({psi.data(), nullptr, a.data(), t}, out.data());
+  routine(Purpose::mass_times).run(psi.data(), nullptr, a.data(), t, out.data());
 }
 
 void Dynamics::mass_matrix(std::span<const double> psi, double t, std::span<double> M) noexcept {
-  routine(Purpose::mass_matrix).evaluate({psi.data(), nullptr, nullptr, t}, M.data());
+  routine(Purpose::mass_matrix).run(psi.data(), nullptr, nullptr, t, M.data());
 }
 
 void Dynamics::bias(std::span<const double> psi, std::span<const double> psid, double t,
                     std::span<double> h) noexcept {
-  routine(Purpose::bias).evaluate({psi.data(), psid.data(), nullptr, t}, h.data());
+  routine(Purpose::bias).run(psi.data(), psid.data(), nullptr, t, h.data());
 }
 
 void Dynamics::inverse_dynamics(std::span<const double> psi, std::span<const double> psid,
                                 std::span<const double> psidd, double t, std::span<double> tau) noexcept {
-  routine(Purpose::inverse_dynamics).evaluate({psi.data(), psid.data(), psidd.data(), t}, tau.data());
+  routine(Purpose::inverse_dynamics).run(psi.data(), psid.data(), psidd.data(), t, tau.data());
 }
 
 void Dynamics::end_effector(std::span<const double> psi, std::span<const double> psid,
                             std::span<const double> psidd, double t, std::span<double> out) noexcept {
-  routine(Purpose::end_effector).evaluate({psi.data(), psid.data(), psidd.data(), t}, out.data());
+  routine(Purpose::end_effector).run(psi.data(), psid.data(), psidd.data(), t, out.data());
 }
 
 void Dynamics::energy(std::span<const double> psi, std::span<const double> psid, double t,
                       std::span<double> out) noexcept {
-  routine(Purpose::energy).evaluate({psi.data(), psid.data(), nullptr, t}, out.data());
+  routine(Purpose::energy).run(psi.data(), psid.data(), nullptr, t, out.data());
 }
 
 void Dynamics::linearisation(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau,
                              double t, std::span<double> out) noexcept {
-  routine(Purpose::linearisation).evaluate({psi.data(), psid.data(), tau.data(), t}, out.data());
+  routine(Purpose::linearisation).run(psi.data(), psid.data(), tau.data(), t, out.data());
 }
 
 void Dynamics::dynamics_and_mass_times(std::span<const double> psi, std::span<const double> psid,
                                        std::span<const double> tau_and_a, double t, std::span<double> out) noexcept {
-  routine(Purpose::dynamics_and_mass_times).evaluate({psi.data(), psid.data(), tau_and_a.data(), t}, out.data());
+  routine(Purpose::dynamics_and_mass_times).run(psi.data(), psid.data(), tau_and_a.data(), t, out.data());
 }
 
 }  // namespace mixloop

@@ -10,5 +10,7 @@ void add_simulate_command(CLI::App& app, int& status);
 void add_run_command(CLI::App& app, int& status);
 void add_track_command(CLI::App& app, int& status);
 void add_dynamics_command(CLI::App& app, int& status);
+void add_explain_command(CLI::App& app, int& status);
+void add_compile_command(CLI::App& app, int& status);
 
 }  // namespace mixloop

@@ -14,5 +14,7 @@ int main(int argc, char** argv) {
   mixloop::add_run_command(app, status);
   mixloop::add_track_command(app, status);
   mixloop::add_dynamics_command(app, status);
+  mixloop::add_explain_command(app, status);
+  mixloop::add_compile_command(app, status);
   return mixloop::run_command_line(argc, argv, app, status);
 }

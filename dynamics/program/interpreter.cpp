@@ -60,10 +60,10 @@ void Interpreter::set_up(std::span<const double> parameters) noexcept {
   run_tape(tape_.set_up, tape_.operands.data(), tape_.values.data());
 }
 
-void Interpreter::evaluate(const Arguments& arguments, double* outputs) noexcept {
+void Interpreter::run(const double* psi, const double* psid, const double* input, double t, double* outputs) noexcept {
   double* values = tape_.values.data();
   for (const Tape::Load& load : tape_.inputs) {
-    const double* block[] = {arguments.psi, arguments.psid, arguments.input, &arguments.t};
+    const double* block[] = {psi, psid, input, &t};
     values[load.slot] = block[static_cast<std::size_t>(load.block)][load.index];
   }
   run_tape(tape_.run, tape_.operands.data(), values);

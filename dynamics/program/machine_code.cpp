@@ -27,8 +27,8 @@ void MachineCode::set_up(std::span<const double> parameters) noexcept {
   set_up_(parameters.data(), constants_.data());
 }
 
-void MachineCode::evaluate(const Arguments& arguments, double* outputs) noexcept {
-  evaluate_(arguments.psi, arguments.psid, arguments.input, arguments.t, constants_.data(), outputs);
+void MachineCode::run(const double* psi, const double* psid, const double* input, double t, double* outputs) noexcept {
+  evaluate_(psi, psid, input, t, constants_.data(), outputs);
 }
 
 }  // namespace mixloop

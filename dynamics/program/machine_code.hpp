@@ -22,7 +22,7 @@ class MachineCode final : public Routine {
                                            std::string& complaint);
 
   void set_up(std::span<const double> parameters) noexcept override;
-  void evaluate(const Arguments& arguments, double* outputs) noexcept override;
+  void run(const double* psi, const double* psid, const double* input, double t, double* outputs) noexcept override;
 
  private:
   using SetUp = void (*)(const double*, double*);

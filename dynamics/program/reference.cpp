@@ -25,28 +25,28 @@ class Reference final : public Routine {
     model_ = make_model<double>(scene_, parameters);
   }
 
-  void evaluate(const Arguments& in, double* out) noexcept override {
-    const std::span<const double> psi(in.psi, n_), psid(in.psid, n_), input(in.input, n_);
+  void run(const double* psi_at, const double* psid_at, const double* input_at, double t, double* out) noexcept override {
+    const std::span<const double> psi(psi_at, n_), psid(psid_at, n_), input(input_at, n_);
     switch (purpose_) {
-      case Purpose::forward_dynamics: put(forward_dynamics<double>(model_, psi, psid, input, in.t, workspace_), out); break;
-      case Purpose::mass_times: times_mass(psi, in.input, in.t, out); break;
-      case Purpose::mass_matrix: put(mass_matrix<double>(model_, psi, in.t, workspace_), out); break;
-      case Purpose::bias: put(bias<double>(model_, psi, psid, in.t, workspace_), out); break;
-      case Purpose::inverse_dynamics: put(inverse_dynamics<double>(model_, psi, psid, input, in.t, workspace_), out); break;
+      case Purpose::forward_dynamics: put(forward_dynamics<double>(model_, psi, psid, input, t, workspace_), out); break;
+      case Purpose::mass_times: times_mass(psi, input_at, t, out); break;
+      case Purpose::mass_matrix: put(mass_matrix<double>(model_, psi, t, workspace_), out); break;
+      case Purpose::bias: put(bias<double>(model_, psi, psid, t, workspace_), out); break;
+      case Purpose::inverse_dynamics: put(inverse_dynamics<double>(model_, psi, psid, input, t, workspace_), out); break;
       case Purpose::end_effector: {
-        const auto& state = end_effector<double>(model_, psi, psid, input, in.t, workspace_);
+        const auto& state = end_effector<double>(model_, psi, psid, input, t, workspace_);
         put(state.jacobian, put(state.acceleration, put(state.velocity, put(state.position, out))));
         break;
       }
       case Purpose::energy: {
-        const Energy<double> energy = mixloop::energy<double>(model_, psi, psid, in.t, workspace_);
+        const Energy<double> energy = mixloop::energy<double>(model_, psi, psid, t, workspace_);
         out[0] = energy.kinetic;
         out[1] = energy.potential;
         break;
       }
       case Purpose::dynamics_and_mass_times:
-        put(forward_dynamics<double>(model_, psi, psid, input, in.t, workspace_), out);
-        times_mass(psi, in.input + n_, in.t, out + n_);
+        put(forward_dynamics<double>(model_, psi, psid, input, t, workspace_), out);
+        times_mass(psi, input_at + n_, t, out + n_);
         break;
       case Purpose::linearisation: break;  // has no reference: see reference_routine
     }

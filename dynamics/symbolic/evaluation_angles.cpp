@@ -140,9 +140,9 @@ std::vector<long double> phases_of(const Angle& angle, const HarmonicEnergy& ene
 
 }  // namespace
 
-EvaluationAngles evaluation_angles(const HarmonicEnergy& energy) {
+std::optional<EvaluationAngles> evaluation_angles(const HarmonicEnergy& energy) {
   const std::set<Angle> harmonics = harmonics_of(energy);
-  if (harmonics.empty()) return {};
+  if (harmonics.empty()) return EvaluationAngles{};
   const std::vector<Angle> candidates = candidates_of(harmonics);
   const std::size_t rank = rank_of(harmonics);
   Choice best;
@@ -150,6 +150,7 @@ EvaluationAngles evaluation_angles(const HarmonicEnergy& energy) {
     std::vector<Angle> taken;
     choose(candidates, 0, count, taken, harmonics, best);
   }
+  if (best.made.angles.empty()) return std::nullopt;
   for (const Angle& angle : best.made.angles) best.made.phases.push_back(phases_of(angle, energy));
   return best.made;
 }

@@ -18,8 +18,8 @@ struct EvaluationAngles {
   std::map<Angle, std::vector<int>> combinations;
 };
 
-/// The fewest angles in which the energy's harmonics are combinations of low degree; none (empty) where
-/// that would take too many.
-EvaluationAngles evaluation_angles(const HarmonicEnergy& energy);
+/// The fewest angles in which the energy's harmonics are combinations of low degree; nullopt where that would
+/// take too many.
+std::optional<EvaluationAngles> evaluation_angles(const HarmonicEnergy& energy);
 
 }  // namespace mixloop

@@ -473,7 +473,9 @@ std::unique_ptr<Tracer> harmonic_tracer(std::shared_ptr<const Scene> scene) {
   if (!energy) return nullptr;
   auto found = std::make_shared<HarmonicScene>();
   found->energy = std::move(*energy);
-  found->angles = evaluation_angles(found->energy);
+  auto angles = evaluation_angles(found->energy);
+  if (!angles) return nullptr;
+  found->angles = std::move(*angles);
   for (const Eigen::MatrixXd& B : candidate_bases(found->energy, kBasesTried)) found->forms.push_back(block_form(found->energy, B));
   const Writing writing = WritingSearch(*scene, found).best();
   const std::vector<Expression> atoms = found->energy.atoms;

@@ -220,7 +220,10 @@ std::vector<Eigen::MatrixXd> candidate_bases(const HarmonicEnergy& energy, std::
       ++i;
     }
     if (std::abs(B.determinant()) < 1e-6L) continue;
-    found.emplace_back(burden(transformed(sheets, B.inverse()), B), B.cast<double>());
+    const LongMatrix inverse = B.inverse();
+    // A basis of nearly dependent rates would cost digits.
+    if (B.norm() * inverse.norm() > 4 * static_cast<long double>(n)) continue;
+    found.emplace_back(burden(transformed(sheets, inverse), B), B.cast<double>());
   } while (std::prev_permutation(chosen.begin(), chosen.end()));
   std::stable_sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
   std::vector<Eigen::MatrixXd> bases;

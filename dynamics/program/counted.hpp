@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "dynamics/program/program.hpp"
+
+namespace mixloop {
+
+/// A double that counts what is computed with it: the procedure on it tells what it takes as it stands.
+class Counted {
+ public:
+  Counted() = default;
+  Counted(double value) : value_(value) {}  // NOLINT: a number is one
+
+  double value() const { return value_; }
+  /// What this thread has computed since it was last reset.
+  static OperationCount& count() {
+    static thread_local OperationCount counted;
+    return counted;
+  }
+
+  Counted operator-() const { return -value_; }
+  Counted& operator+=(const Counted& y) { return *this = *this + y; }
+  Counted& operator-=(const Counted& y) { return *this = *this - y; }
+  Counted& operator*=(const Counted& y) { return *this = *this * y; }
+  Counted& operator/=(const Counted& y) { return *this = *this / y; }
+
+  friend Counted operator+(const Counted& x, const Counted& y) { return ++count().add, x.value_ + y.value_; }
+  friend Counted operator-(const Counted& x, const Counted& y) { return ++count().add, x.value_ - y.value_; }
+  friend Counted operator*(const Counted& x, const Counted& y) { return ++count().mul, x.value_ * y.value_; }
+  friend Counted operator/(const Counted& x, const Counted& y) { return ++count().div, x.value_ / y.value_; }
+  friend Counted sqrt(const Counted& x) { return ++count().sqrt, std::sqrt(x.value_); }
+  // A sine and its cosine are one pair, counted with the sine.
+  friend Counted sin(const Counted& x) { return ++count().sincos, std::sin(x.value_); }
+  friend Counted cos(const Counted& x) { return std::cos(x.value_); }
+  friend Counted exp(const Counted& x) { return ++count().other, std::exp(x.value_); }
+  friend Counted log(const Counted& x) { return ++count().other, std::log(x.value_); }
+  friend Counted atan2(const Counted& y, const Counted& x) { return ++count().other, std::atan2(y.value_, x.value_); }
+
+ private:
+  double value_ = 0.0;
+};
+
+}  // namespace mixloop
+
+namespace Eigen {
+template <>
+struct NumTraits<mixloop::Counted> : GenericNumTraits<double> {
+  using Real = mixloop::Counted;
+  using NonInteger = mixloop::Counted;
+  using Nested = mixloop::Counted;
+  using Literal = mixloop::Counted;
+  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+};
+}  // namespace Eigen

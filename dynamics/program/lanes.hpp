@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/program/program.hpp"
+#include "dynamics/program/shared_object.hpp"
+
+namespace mixloop {
+
+/// A program's machine code on several states at once (SIMD), for sweeps: lane by lane the bits of the
+/// scalar one. Each number of psi, psid, input, t and the outputs is `width()` consecutive doubles.
+class LaneCode {
+ public:
+  /// As MachineCode::load; the width is the processor's: 8 with 512-bit vectors, else 4.
+  static std::unique_ptr<LaneCode> load(const std::string& key, const std::function<Program()>& trace,
+                                        std::string& complaint);
+
+  int width() const { return width_; }
+  void set_up(std::span<const double> parameters) noexcept { set_up_(parameters.data(), constants_.data()); }
+  void evaluate(const double* psi, const double* psid, const double* input, const double* t, double* outputs) noexcept {
+    evaluate_(psi, psid, input, t, constants_.data(), outputs);
+  }
+
+ private:
+  using SetUp = void (*)(const double*, double*);
+  using Evaluate = void (*)(const double*, const double*, const double*, const double*, const double*, double*);
+
+  SharedObject library_;
+  int width_ = 4;
+  SetUp set_up_ = nullptr;
+  Evaluate evaluate_ = nullptr;
+  std::vector<double> constants_;
+};
+
+}  // namespace mixloop

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Why a scene's programs are as small as they are, in words of mechanics. What has no influence is found by
+// varying it: on numbers, at seeded poses, so that no rule of the tracers has to be believed.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <random>
+
+#include "dynamics/procedure/procedure.hpp"
+#include "dynamics/program/explanation.hpp"
+#include "dynamics/symbolic/evaluation_angles.hpp"
+#include "dynamics/symbolic/harmonic_form.hpp"
+#include "dynamics/symbolic/tracer.hpp"
+
+namespace mixloop {
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+std::string listed(const Sentences& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+/// The procedure with its coordinates q set freely, as if there were no constraints.
+class FreeTree {
+ public:
+  explicit FreeTree(const std::shared_ptr<const Scene>& scene)
+      : scene_(scene), values_(scene->default_parameters()),
+        model_(make_model<double>(scene, std::span<const double>(values_))), workspace_(model_) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int j = 0; j < scene->m(); ++j) q_.push_back(unit(random));
+  }
+
+  Model<double>& model() { return model_; }
+  std::vector<double>& q() { return q_; }
+
+  Matrix mass_matrix() {
+    place();
+    dynamic_matrix(model_, workspace_);
+    return workspace_.S;
+  }
+  double potential() {
+    place();
+    double sum = 0.0;
+    for (const auto& body : model_.bodies)
+      sum -= body.mass * model_.gravity.dot(at_point<double>(frame(body.frame), body.center_of_mass));
+    return sum;
+  }
+  Vec3<double> hand() {
+    place();
+    return at_point<double>(frame(scene_->end_effector.frame), model_.end_effector_point);
+  }
+
+ private:
+  const Mat34<double>& frame(int index) const { return workspace_.frames[static_cast<std::size_t>(index)].T_0; }
+  void place() {
+    for (int j = 0; j < scene_->m(); ++j) workspace_.q[j] = q_[static_cast<std::size_t>(j)];
+    frame_variations(model_, workspace_);
+  }
+
+  std::shared_ptr<const Scene> scene_;
+  std::vector<double> values_;
+  Model<double> model_;
+  Workspace<double> workspace_;
+  std::vector<double> q_;
+};
+
+bool differ(const Matrix& x, const Matrix& y) { return (x - y).norm() > 1e-12 * (x.norm() + y.norm()); }
+
+void about_constraints(const std::shared_ptr<const Scene>& scene, Graph& graph, Sentences& say) {
+  TracedInputs in(*scene);
+  const auto model = make_model<Expression>(scene, std::span<const Expression>(in.parameters));
+  Workspace<Expression> workspace(model);
+  coordinates<Expression>(model, span_of(in.psi), in.t, workspace);
+  bool constant = true;
+  std::size_t zeros = 0;
+  std::vector<NodeId> nodes;
+  for (int i = 0; i < scene->m(); ++i) {
+    nodes.push_back(workspace.q[i].node());
+    for (int j = 0; j < scene->n(); ++j) {
+      const Expression& c = workspace.C(i, j);
+      constant = constant && c.is_number();
+      zeros += c.is_number() && c.number() == 0.0;
+    }
+  }
+  say.push_back(constant ? "The constraints are affine with constant coefficients: C is constant, so C-dot and all that it multiplies vanish."
+                         : "C varies with the pose: C-dot is needed.");
+  if (zeros > 0) say.push_back(fmt::format("{} of C's {} elements are zero.", zeros, scene->m() * scene->n()));
+  const auto is_needed = needed(graph, nodes);
+  if (!is_needed[in.t.node()]) say.push_back("No constraint depends on time: no F_t, F_tt or mixed term.");
+}
+
+void about_coordinates(const std::shared_ptr<const Scene>& scene, Sentences& say) {
+  FreeTree tree(scene);
+  const Matrix S = tree.mass_matrix();
+  const double V = tree.potential();
+  const Vec3<double> hand = tree.hand();
+  const double weight = V + S.norm();
+  Sentences no_inertia, no_weight, no_use;
+  for (std::size_t j = 0; j < tree.q().size(); ++j) {
+    const std::string& name = scene->coordinates[j].name;
+    tree.q()[j] += 0.7;
+    const bool turns_S = differ(tree.mass_matrix(), S);
+    const bool lifts = std::fabs(tree.potential() - V) > 1e-12 * std::fabs(weight);
+    const bool moves_hand = (tree.hand() - hand).norm() > 1e-12;
+    tree.q()[j] -= 0.7;
+    const auto at = static_cast<Eigen::Index>(j);
+    if (S.row(at).isZero(0) && !lifts && !moves_hand) no_use.push_back(name);
+    else if (!turns_S) no_inertia.push_back(name);
+    if (!lifts && !S.row(at).isZero(0)) no_weight.push_back(name);
+  }
+  if (!no_inertia.empty())
+    say.push_back(fmt::format("No inertia depends on {}: what turns there turns as a whole, so its sine and cosine are not needed.", listed(no_inertia)));
+  if (!no_weight.empty() && scene->gravity[0].is_zero() + scene->gravity[1].is_zero() + scene->gravity[2].is_zero() < 3)
+    say.push_back(fmt::format("The potential does not depend on {}: gravity is parallel to the axis, or nothing is lifted.", listed(no_weight)));
+  if (!no_use.empty()) say.push_back(fmt::format("{} move no mass and not the end effector: skipped.", listed(no_use)));
+}
+
+void about_axes(const std::shared_ptr<const Scene>& scene, Sentences& say) {
+  std::size_t right = 0, parallel = 0;
+  for (const auto& transform : scene->transforms) {
+    if (!transform.alpha.is_constant()) continue;
+    const double quarters = transform.alpha.constant() / 1.5707963267948966;
+    if (std::fabs(quarters - std::round(quarters)) > 1e-12) continue;
+    (std::fabs(std::remainder(quarters, 2.0)) < 0.5 ? parallel : right) += 1;
+  }
+  if (parallel > 0) say.push_back(fmt::format("{} of {} transforms leave the axis parallel: their angles add, and the sums take the place of the products of their sines and cosines.", parallel, scene->transforms.size()));
+  if (right > 0) say.push_back(fmt::format("{} turn it by a right angle: zeros and ones, no products.", right));
+}
+
+// Bodies: what has no mass, no inertia, or inertia that never acts.
+void about_bodies(const std::shared_ptr<const Scene>& scene, Sentences& say) {
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  FreeTree tree(scene);
+  const Matrix S = tree.mass_matrix();
+  for (std::size_t i = 0; i < tree.model().bodies.size(); ++i) {
+    auto& body = tree.model().bodies[i];
+    const std::string name = scene->bodies[i].name.empty() ? fmt::format("body {}", i + 1) : scene->bodies[i].name;
+    if (scene->bodies[i].mass.is_zero()) say.push_back(fmt::format("{} is massless.", name));
+    if (body.inertia.isZero(0)) {
+      say.push_back(fmt::format("{} is a point mass: no moment of inertia.", name));
+      continue;
+    }
+    Sentences none, idle;
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      if (body.inertia(a, a) == 0.0) none.push_back(kAxes[a]);
+      const double kept = body.inertia(a, a);
+      body.inertia(a, a) += 1.0;
+      if (!differ(tree.mass_matrix(), S)) idle.push_back(kAxes[a]);
+      body.inertia(a, a) = kept;
+    }
+    if (!none.empty()) say.push_back(fmt::format("{} has no moment of inertia about {}.", name, listed(none)));
+    if (!idle.empty()) say.push_back(fmt::format("{} never turns about its {}: that moment of inertia is skipped.", name, listed(idle)));
+  }
+}
+
+std::string row_text(const Eigen::RowVectorXd& row, const Scene& scene) {
+  std::string text;
+  for (Eigen::Index k = 0; k < row.size(); ++k) {
+    if (row[k] == 0.0) continue;
+    const double size = std::fabs(row[k]);
+    const std::string factor = size == 1.0 ? "" : fmt::format("{:.6g} ", size);
+    text += (text.empty() ? (row[k] < 0 ? "-" : "") : (row[k] < 0 ? " - " : " + ")) + factor + scene.motors[static_cast<std::size_t>(k)].name + "'";
+  }
+  return text;
+}
+
+void about_energy(const std::shared_ptr<const Scene>& scene, Graph& graph, Sentences& say) {
+  const auto energy = harmonic_energy(scene, graph);
+  if (!energy) {
+    say.push_back("Its energy is no small trigonometric polynomial of the independent angles: traced by composite bodies and Newton-Euler.");
+    return;
+  }
+  if (const auto angles = evaluation_angles(*energy)) {
+    std::size_t joints = 0;
+    for (const auto& transform : scene->transforms) joints += transform.coordinate.has_value() && !transform.prismatic;
+    say.push_back(fmt::format("{} joint angles come down to {} sine/cosine pairs.", joints, angles->angles.size()));
+  }
+  const auto bases = candidate_bases(*energy, 1);
+  if (bases.empty()) return;
+  const BlockForm form = block_form(*energy, bases[0]);
+  if (form.blocks.size() < 2) return;
+  Sentences blocks;
+  for (const auto& block : form.blocks) {
+    Sentences rates;
+    for (int i : block) rates.push_back(row_text(form.B.row(i), *scene));
+    blocks.push_back("{" + listed(rates) + "}");
+  }
+  say.push_back(fmt::format("The mass matrix is block diagonal in the rates {}: solved block by block.", fmt::join(blocks, " and ")));
+}
+
+}  // namespace
+
+std::vector<std::string> reasons_of(const std::shared_ptr<const Scene>& scene) {
+  Sentences say;
+  Graph graph;
+  const Recording recording(graph);
+  about_constraints(scene, graph, say);
+  about_coordinates(scene, say);
+  about_axes(scene, say);
+  about_bodies(scene, say);
+  about_energy(scene, graph, say);
+  if (scene->loads.empty()) say.push_back("No external loads.");
+  if (!scene->parameters.empty()) {
+    Sentences names;
+    for (const auto& parameter : scene->parameters) names.push_back(parameter.name);
+    say.push_back(fmt::format("Parameters ({}) stay variable: what depends on them alone is computed when they change, not in an evaluation.", listed(names)));
+  }
+  return say;
+}
+
+}  // namespace mixloop
