@@ -113,7 +113,9 @@ CommonGround common_ground(const Experiment& experiment) {
   ground.mechanism = experiment.scene->canonical;
   for (const auto& via : experiment.path.vias)
     ground.path += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(), via.duration, via.dwell);
-  ground.path += fmt::format("repeat {} from", experiment.path.repeat);
+  ground.path += fmt::format("repeat {} approach {:a}", experiment.path.repeat, experiment.path.approach.value_or(0));
+  for (const double limit : experiment.limits.velocity) ground.path += fmt::format(" {:a}", limit);
+  ground.path += " from";
   for (const double psi : experiment.plant.initial_psi) ground.path += fmt::format(" {:a}", psi);
   for (const double value : experiment.parameters) ground.parameters += fmt::format("{:a} ", value);
   return ground;
