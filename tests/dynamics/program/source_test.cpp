@@ -34,8 +34,9 @@ TEST(Source, BuildsWithoutAWarningAsCxx17) {
     for (Trigonometry trigonometry : {Trigonometry::inlined, Trigonometry::c_library}) {
       const std::string source = firmware_source(scene, {kPurposes.begin(), kPurposes.end()}, trigonometry);
       EXPECT_TRUE(builds(source, "g++", "-std=c++17 -O1")) << name;
-      if (std::system("clang++ --version > /dev/null 2>&1") == 0)
+      if (std::system("clang++ --version > /dev/null 2>&1") == 0) {
         EXPECT_TRUE(builds(source, "clang++", "-std=c++17 -O1")) << name;
+      }
     }
   }
 }
