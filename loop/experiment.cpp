@@ -23,7 +23,7 @@ NodePtr overridden(NodePtr document, const std::vector<Override>& overrides, boo
 std::shared_ptr<const Scene> scene_at(const Node& node, const std::filesystem::path& base, const std::vector<Override>& overrides) {
   const std::filesystem::path file = base / text_of(node, "the path of a scene file");
   std::error_code failure;
-  if (!std::filesystem::exists(file, failure)) throw InputError("no_such_file", node.place, "no scene at '" + file.string() + "' (paths count from the experiment's folder)");
+  if (!std::filesystem::exists(file, failure)) throw InputError("no_such_file", node.place, "no scene at " + describe(node) + " (its path counts from the experiment's folder)");
   return std::make_shared<const Scene>(load_scene(overridden(read_document(file), overrides, true)));
 }
 
