@@ -33,9 +33,8 @@ class Plan {
 
   int n() const { return n_; }
   std::int64_t ticks() const { return ticks_; }  ///< N: the last tick
-  std::int64_t start_tick() const {
-    return start_tick_;
-  }  ///< where the path begins, after the move to its start
+  /// Where the path begins, after the move to its start.
+  std::int64_t start_tick() const { return start_tick_; }
 
   /// At tick k: time k / rate. Before 0 as at 0; past N the last position with rates of zero.
   /// Valid while the plan lives.
