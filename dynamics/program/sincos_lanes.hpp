@@ -8,12 +8,12 @@ template <int kLanes>
 struct Vectors;
 template <>
 struct Vectors<4> {
-  typedef double Real __attribute__((vector_size(32), aligned(8), may_alias));
+  typedef double Real __attribute__((vector_size(32)));
   typedef int64_t Bits __attribute__((vector_size(32)));
 };
 template <>
 struct Vectors<8> {
-  typedef double Real __attribute__((vector_size(64), aligned(8), may_alias));
+  typedef double Real __attribute__((vector_size(64)));
   typedef int64_t Bits __attribute__((vector_size(64)));
 };
 using Lanes4 = Vectors<4>::Real;
@@ -35,7 +35,10 @@ MIXLOOP_INLINE void sincos(typename Vectors<kLanes>::Real x, typename Vectors<kL
   const Real k = shifted - kRound;
   const Real r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
   const Real z = r * r;
-  const Bits quadrant = (Bits)shifted, u = (Bits)sine_kernel(r, z), v = (Bits)cosine_kernel(z);
+  Real s, c;
+  sine_kernel(r, z, s);
+  cosine_kernel(z, c);
+  const Bits quadrant = (Bits)shifted, u = (Bits)s, v = (Bits)c;
   const Bits swapped = (u ^ v) & -(quadrant & 1);
   *sine = (Real)(u ^ swapped ^ ((quadrant & 2) << 62));
   *cosine = (Real)(v ^ swapped ^ (((quadrant + 1) & 2) << 62));
@@ -43,10 +46,10 @@ MIXLOOP_INLINE void sincos(typename Vectors<kLanes>::Real x, typename Vectors<kL
   for (int i = 0; i < kLanes; ++i) large |= !(x[i] < kLimit && x[i] > -kLimit);
   if (!large) return;
   for (int i = 0; i < kLanes; ++i) {
-    double s, c;
-    mixloop_sincos::sincos(x[i], &s, &c);
-    (*sine)[i] = s;
-    (*cosine)[i] = c;
+    double exact_sine, exact_cosine;
+    mixloop_sincos::sincos(x[i], &exact_sine, &exact_cosine);
+    (*sine)[i] = exact_sine;
+    (*cosine)[i] = exact_cosine;
   }
 }
 

@@ -76,12 +76,27 @@ class Writer {
          "const double* k, double* out) {{\n  {0}_run<double>(psi, psid, input, t, k, out);\n}}",
          style_.prefix);
     if (!style_.lanes) return;
-    for (int lanes : {4, 8})
-      line("extern \"C\" void {0}_{1}(const double* psi, const double* psid, const double* input, const double* t, "
-           "const double* k, double* out) {{\n"
-           "  using Real = mixloop_lanes::Lanes{1};\n"
-           "  {0}_run<Real>((const Real*)psi, (const Real*)psid, (const Real*)input, *(const Real*)t, k, (Real*)out);\n}}",
-           style_.prefix, lanes);
+    for (int lanes : {4, 8}) export_lanes(lanes);
+  }
+
+  // Through copies in registers: the caller's memory is aligned for doubles only.
+  void export_lanes(int lanes) {
+    line("extern \"C\" void {0}_{1}(const double* psi, const double* psid, const double* input, const double* t, "
+         "const double* k, double* out) {{\n  using Real = mixloop_lanes::Lanes{1};",
+         style_.prefix, lanes);
+    std::string arguments;
+    for (Block block : {Block::psi, Block::psid, Block::input, Block::time}) {
+      constexpr const char* kNames[] = {"psi", "psid", "input", "t"};
+      const char* name = kNames[static_cast<std::size_t>(block)];
+      std::size_t used = 0;
+      for (const ExpressionNode& n : program_.nodes)
+        if (n.op == Op::input && static_cast<Block>(n.a) == block) used = std::max<std::size_t>(used, n.b + 1);
+      line("  Real {0}_in[{1}] = {{}};\n  if ({2}) memcpy({0}_in, {0}, sizeof {0}_in);\n  (void){0};", name,
+           std::max<std::size_t>(used, 1), used > 0 ? "true" : "false");
+      arguments += fmt::format("{}_in{}, ", name, block == Block::time ? "[0]" : "");
+    }
+    line("  Real results[{1}];\n  {0}_run<Real>({2}k, results);\n  memcpy(out, results, sizeof results);\n}}", style_.prefix,
+         program_.outputs.size(), arguments);
   }
 
   void statements(Stage stage, const char* type) {
@@ -222,10 +237,10 @@ constexpr const char* kFunctions = R"(
 namespace {
 template <class Real>
 inline Real mixloop_lift(double x) { return x - Real(); }
-inline double mixloop_sqrt(double x) { return sqrt(x); }
-inline double mixloop_exp(double x) { return exp(x); }
-inline double mixloop_log(double x) { return log(x); }
-inline double mixloop_atan2(double y, double x) { return atan2(y, x); }
+[[maybe_unused]] inline double mixloop_sqrt(double x) { return sqrt(x); }
+[[maybe_unused]] inline double mixloop_exp(double x) { return exp(x); }
+[[maybe_unused]] inline double mixloop_log(double x) { return log(x); }
+[[maybe_unused]] inline double mixloop_atan2(double y, double x) { return atan2(y, x); }
 }  // namespace
 )";
 
