@@ -33,8 +33,9 @@ std::string output_of(const std::string& command) {
 Figures run(const std::string& command) {
   const std::string text = output_of(command);
   const nlohmann::json j = nlohmann::json::parse(text.substr(text.find('{')));
-  const double rate = j.contains("rate") ? j.at("rate").get<double>()
-                                         : j.at("ticks").get<double>() / j.at("wall_time").get<double>();
+  // `mixloop run` has a rate, too: the experiment's.
+  const double rate = j.contains("wall_time") ? j.at("ticks").get<double>() / j.at("wall_time").get<double>()
+                                              : j.at("rate").get<double>();
   return {.rate = rate, .p50 = j.at("round_trip_p50"), .p99 = j.at("round_trip_p99")};
 }
 
