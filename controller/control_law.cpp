@@ -9,7 +9,8 @@ Controller::Controller(Dynamics dynamics, ControllerSettings settings)
       model_torque_(settings_.kp.size()),
       at_rest_(Vector::Zero(settings_.kp.size())) {}
 
-void Controller::torque(std::span<const double> psi, std::span<const double> psid, const Reference& reference, double t, std::span<double> tau) {
+void Controller::torque(std::span<const double> psi, std::span<const double> psid, const Reference& reference,
+                        double t, std::span<double> tau) {
   const Law law = settings_.law;
   const bool desired = settings_.feedforward_at == FeedforwardAt::kDesired;
   const std::span<const double> model_psi = desired ? span_of(reference.psi) : psi;
@@ -17,13 +18,15 @@ void Controller::torque(std::span<const double> psi, std::span<const double> psi
   Eigen::Map<Vector> out(tau.data(), static_cast<Eigen::Index>(tau.size()));
 
   // (33) tau = Kp (Psi_d - Psi) + Kv (Psi'_d - Psi') + ...
-  out = settings_.kp.cwiseProduct(reference.psi - map_of(psi)) + settings_.kv.cwiseProduct(reference.psid - map_of(psid));
+  out = settings_.kp.cwiseProduct(reference.psi - map_of(psi)) +
+        settings_.kv.cwiseProduct(reference.psid - map_of(psid));
   if (law == Law::kPdFeedforward || law == Law::kComputedTorque) {
     dynamics_.mass_times(model_psi, span_of(reference.psidd), t, span_of(model_torque_));
     out += model_torque_;
   }
   if (law == Law::kPdGravity || law == Law::kComputedTorque) {
-    dynamics_.bias(model_psi, law == Law::kPdGravity ? span_of(std::as_const(at_rest_)) : model_psid, t, span_of(model_torque_));
+    dynamics_.bias(model_psi, law == Law::kPdGravity ? span_of(std::as_const(at_rest_)) : model_psid, t,
+                   span_of(model_torque_));
     out += model_torque_;
   }
 }

@@ -14,7 +14,8 @@ class Controller {
   Controller(Dynamics dynamics, ControllerSettings settings);
 
   /// tau (n) for the measured psi, psid at time t. Allocates nothing.
-  void torque(std::span<const double> psi, std::span<const double> psid, const Reference& reference, double t, std::span<double> tau);
+  void torque(std::span<const double> psi, std::span<const double> psid, const Reference& reference, double t,
+              std::span<double> tau);
 
  private:
   Dynamics dynamics_;

@@ -10,9 +10,15 @@ namespace mixloop {
 namespace {
 
 Reference reference_in(const reference_t& message) {
-  const auto values = [](const std::vector<double>& x) { return Reference::Values(x.data(), static_cast<Eigen::Index>(x.size())); };
-  return {values(message.psi_desired), values(message.psid_desired), values(message.psidd_desired),
-          Reference::Triple(message.position_desired), Reference::Triple(message.velocity_desired), Reference::Triple(message.acceleration_desired)};
+  const auto values = [](const std::vector<double>& x) {
+    return Reference::Values(x.data(), static_cast<Eigen::Index>(x.size()));
+  };
+  return {values(message.psi_desired),
+          values(message.psid_desired),
+          values(message.psidd_desired),
+          Reference::Triple(message.position_desired),
+          Reference::Triple(message.velocity_desired),
+          Reference::Triple(message.acceleration_desired)};
 }
 
 int run(const PeerLine& line) {
@@ -24,7 +30,8 @@ int run(const PeerLine& line) {
 
   Bus bus(line.bus);
   ControllerSide side;
-  side.compute = [&](std::int64_t k, std::span<const double> psi, std::span<const double> psid, const reference_t& desired, std::span<double> tau) {
+  side.compute = [&](std::int64_t k, std::span<const double> psi, std::span<const double> psid,
+                     const reference_t& desired, std::span<double> tau) {
     controller.torque(psi, psid, reference_in(desired), static_cast<double>(k) / experiment.rate_hz, tau);
   };
   ControllerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()), std::move(side));
@@ -39,8 +46,10 @@ int main(int argc, char** argv) {
   mixloop::PeerLine line;
   CLI::App app("mixloop-controller: the control law of an experiment, on the LCM bus.");
   mixloop::add_peer_options(app, line);
-  app.footer("Holds STATE(k) until REFERENCE(k) is there and answers with COMMAND(k); the same tick always has the same answer.\n"
-             "Leaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
+  app.footer(
+      "Holds STATE(k) until REFERENCE(k) is there and answers with COMMAND(k); the same tick always has the "
+      "same answer.\n"
+      "Leaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
   app.callback([&] { status = mixloop::run(line); });
   return mixloop::run_command_line(argc, argv, app, status);
 }

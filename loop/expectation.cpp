@@ -28,20 +28,29 @@ double Expectation::Bound::value_in(const Measures& measures) const {
 }
 
 Expectation read_expectation(const NodePtr& node, const Scene& scene) {
-  const Mapping entry(node, "what is expected", {"max_position_error", "final_position_error", "rms_position_error", "max_torque", "diverges"});
+  const Mapping entry(
+      node, "what is expected",
+      {"max_position_error", "final_position_error", "rms_position_error", "max_torque", "diverges"});
   Expectation expectation;
   for (const auto& known : kErrors) {
     const NodePtr bound = entry.find(known.name);
     if (!bound) continue;
     const auto values = numbers_of(bound, kLength, 0, known.name);
-    if (values.empty() || values.size() > 2) throw InputError("wrong_size", bound->place, fmt::format("{} values for {}; expected a bound or [least, most]", values.size(), known.name));
+    if (values.empty() || values.size() > 2)
+      throw InputError(
+          "wrong_size", bound->place,
+          fmt::format("{} values for {}; expected a bound or [least, most]", values.size(), known.name));
     expectation.bounds.push_back({known.name, -1, values.size() == 2 ? values[0] : 0.0, values.back()});
   }
   if (const NodePtr torque = entry.find("max_torque")) {
     const auto items = items_of(torque, "max_torque");
-    if (items.size() != scene.motors.size()) throw InputError("wrong_size", torque->place, fmt::format("max_torque has {} values; expected {}", items.size(), scene.n()));
+    if (items.size() != scene.motors.size())
+      throw InputError("wrong_size", torque->place,
+                       fmt::format("max_torque has {} values; expected {}", items.size(), scene.n()));
     for (std::size_t i = 0; i < items.size(); ++i)
-      expectation.bounds.push_back({"max_torque", static_cast<int>(i), 0.0, number_of(*items[i], scene.motors[i].linear ? kForce : kMoment, "max_torque")});
+      expectation.bounds.push_back(
+          {"max_torque", static_cast<int>(i), 0.0,
+           number_of(*items[i], scene.motors[i].linear ? kForce : kMoment, "max_torque")});
   }
   if (const NodePtr diverges = entry.find("diverges")) expectation.diverges = flag_of(*diverges, "diverges");
   return expectation;
@@ -50,7 +59,8 @@ Expectation read_expectation(const NodePtr& node, const Scene& scene) {
 std::vector<std::string> missed(const Expectation& expectation, const Measures& measures) {
   std::vector<std::string> lines;
   if (measures.diverged_at.has_value() != expectation.diverges)
-    lines.push_back(expectation.diverges ? "it did not diverge; expected divergence" : fmt::format("it diverged at {:.6g} s", *measures.diverged_at));
+    lines.push_back(expectation.diverges ? "it did not diverge; expected divergence"
+                                         : fmt::format("it diverged at {:.6g} s", *measures.diverged_at));
   if (measures.diverged_at) return lines;
   for (const auto& bound : expectation.bounds) {
     const double value = bound.value_in(measures);
@@ -59,8 +69,11 @@ std::vector<std::string> missed(const Expectation& expectation, const Measures& 
     const double scale = torque ? 1 : 1e3;
     const char* unit = torque ? "N m" : "mm";
     const std::string name = torque ? fmt::format("{}[{}]", bound.name, bound.motor) : bound.name;
-    lines.push_back(bound.least > 0 ? fmt::format("{} is {:.6g} {}; expected {:.6g} to {:.6g} {}", name, value * scale, unit, bound.least * scale, bound.most * scale, unit)
-                                    : fmt::format("{} is {:.6g} {}; expected at most {:.6g} {}", name, value * scale, unit, bound.most * scale, unit));
+    lines.push_back(bound.least > 0
+                        ? fmt::format("{} is {:.6g} {}; expected {:.6g} to {:.6g} {}", name, value * scale,
+                                      unit, bound.least * scale, bound.most * scale, unit)
+                        : fmt::format("{} is {:.6g} {}; expected at most {:.6g} {}", name, value * scale,
+                                      unit, bound.most * scale, unit));
   }
   return lines;
 }

@@ -15,40 +15,63 @@ NodePtr overridden(NodePtr document, const std::vector<Override>& overrides, boo
   static constexpr std::string_view kScene = "scene.";
   for (const auto& [key, value] : overrides) {
     if (key.starts_with(kScene) != of_scene) continue;
-    document = override_entry(document, of_scene ? std::string_view(key).substr(kScene.size()) : std::string_view(key), value);
+    document = override_entry(
+        document, of_scene ? std::string_view(key).substr(kScene.size()) : std::string_view(key), value);
   }
   return document;
 }
 
-std::shared_ptr<const Scene> scene_at(const Node& node, const std::filesystem::path& base, const std::vector<Override>& overrides) {
+std::shared_ptr<const Scene> scene_at(const Node& node, const std::filesystem::path& base,
+                                      const std::vector<Override>& overrides) {
   const std::filesystem::path file = base / text_of(node, "the path of a scene file");
   std::error_code failure;
-  if (!std::filesystem::exists(file, failure)) throw InputError("no_such_file", node.place, "no scene at " + describe(node) + " (its path counts from the experiment's folder)");
+  if (!std::filesystem::exists(file, failure))
+    throw InputError("no_such_file", node.place,
+                     "no scene at " + describe(node) + " (its path counts from the experiment's folder)");
   return std::make_shared<const Scene>(load_scene(overridden(read_document(file), overrides, true)));
 }
 
 double read_rate(const Node& node) {
   const double rate = number_of(node, kFrequency, "the rate");
-  if (!(rate >= 1 && rate <= 1e6)) throw InputError("out_of_range", node.place, fmt::format("a rate of {} Hz; expected 1 Hz to 1 MHz", rate));
+  if (!(rate >= 1 && rate <= 1e6))
+    throw InputError("out_of_range", node.place,
+                     fmt::format("a rate of {} Hz; expected 1 Hz to 1 MHz", rate));
   return rate;
 }
 
 void read_limits(const NodePtr& node, Experiment& experiment) {
   const Mapping entry(node, "the limits", {"position_error", "velocity", "torque"});
-  if (const NodePtr limit = entry.find("position_error")) experiment.position_error_limit = number_of(*limit, kLength, "the position error limit");
-  if (!(experiment.position_error_limit > 0)) throw InputError("out_of_range", entry.at("position_error")->place, "a position error limit that is not positive");
-  if (const NodePtr limit = entry.find("velocity")) experiment.limits.velocity = read_motor_values(limit, *experiment.scene, kFrequency, kLength / kTime, "the velocity limit");
-  if (const NodePtr limit = entry.find("torque")) experiment.limits.torque = read_motor_values(limit, *experiment.scene, kMoment, kForce, "the torque limit");
+  if (const NodePtr limit = entry.find("position_error"))
+    experiment.position_error_limit = number_of(*limit, kLength, "the position error limit");
+  if (!(experiment.position_error_limit > 0))
+    throw InputError("out_of_range", entry.at("position_error")->place,
+                     "a position error limit that is not positive");
+  if (const NodePtr limit = entry.find("velocity"))
+    experiment.limits.velocity =
+        read_motor_values(limit, *experiment.scene, kFrequency, kLength / kTime, "the velocity limit");
+  if (const NodePtr limit = entry.find("torque"))
+    experiment.limits.torque =
+        read_motor_values(limit, *experiment.scene, kMoment, kForce, "the torque limit");
 }
 
-NodePtr parameters_in(const NodePtr& section) { return section ? Mapping(section, "", [&] { std::vector<std::string> all; for (const auto& entry : section->entries) all.push_back(entry.key); return all; }()).find("parameters") : nullptr; }
+NodePtr parameters_in(const NodePtr& section) {
+  return section ? Mapping(section, "",
+                           [&] {
+                             std::vector<std::string> all;
+                             for (const auto& entry : section->entries) all.push_back(entry.key);
+                             return all;
+                           }())
+                       .find("parameters")
+                 : nullptr;
+}
 
 }  // namespace
 
 Override parse_override(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw InputError("invalid_override", {"--set " + text}, "expected key=value, e.g. --set parameters.payload='3 kg'");
+    throw InputError("invalid_override", {"--set " + text},
+                     "expected key=value, e.g. --set parameters.payload='3 kg'");
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -56,8 +79,10 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
   return load_experiment(read_document(file), file, overrides);
 }
 
-Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  const Mapping root(overridden(document, overrides, false), "the experiment", {"scene", "rate", "path", "controller", "plant", "parameters", "limits", "expect"});
+Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file,
+                           const std::vector<Override>& overrides) {
+  const Mapping root(overridden(document, overrides, false), "the experiment",
+                     {"scene", "rate", "path", "controller", "plant", "parameters", "limits", "expect"});
   Experiment experiment;
   experiment.file = file;
   experiment.name = file.stem().string();
@@ -69,18 +94,22 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
 
   const NodePtr controller = root.at("controller");
   experiment.controller = read_controller_settings(controller, scene);
-  const Mapping controller_entry(controller, "the controller", {"law", "kp", "kv", "feedforward_at", "parameters", "scene"});
+  const Mapping controller_entry(controller, "the controller",
+                                 {"law", "kp", "kv", "feedforward_at", "parameters", "scene"});
   const NodePtr other_scene = controller_entry.find("scene");
   experiment.controller_scene = other_scene ? scene_at(*other_scene, base, {}) : experiment.scene;
   if (experiment.controller_scene->n() != scene.n())
-    throw InputError("wrong_size", other_scene->place, fmt::format("the controller's scene has {} motors, the plant's {}", experiment.controller_scene->n(), scene.n()));
+    throw InputError("wrong_size", other_scene->place,
+                     fmt::format("the controller's scene has {} motors, the plant's {}",
+                                 experiment.controller_scene->n(), scene.n()));
 
   const NodePtr plant = root.find("plant");
   if (plant) experiment.plant = read_plant_settings(plant, scene);
   experiment.parameters = parameter_values(scene, root.find("parameters"), scene.default_parameters());
   experiment.plant_parameters = parameter_values(scene, parameters_in(plant), experiment.parameters);
-  experiment.controller_parameters = parameter_values(*experiment.controller_scene, parameters_in(controller),
-                                                      other_scene ? experiment.controller_scene->default_parameters() : experiment.parameters);
+  experiment.controller_parameters = parameter_values(
+      *experiment.controller_scene, parameters_in(controller),
+      other_scene ? experiment.controller_scene->default_parameters() : experiment.parameters);
   if (const NodePtr limits = root.find("limits")) read_limits(limits, experiment);
   if (const NodePtr expect = root.find("expect")) experiment.expect = read_expectation(expect, scene);
   return experiment;
@@ -100,12 +129,16 @@ Plan make_plan(const Experiment& experiment) {
 }
 
 Controller make_controller(const Experiment& experiment) {
-  return Controller(Dynamics(experiment.controller_scene, experiment.controller_parameters, experiment.evaluation, {Purpose::mass_times, Purpose::bias}), experiment.controller);
+  return Controller(Dynamics(experiment.controller_scene, experiment.controller_parameters,
+                             experiment.evaluation, {Purpose::mass_times, Purpose::bias}),
+                    experiment.controller);
 }
 
 Plant make_plant(const Experiment& experiment, const Plan& plan) {
   const Vector start = plan.at(0).psi;
-  return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, {Purpose::forward_dynamics}), experiment.plant, experiment.rate_hz, span_of(start));
+  return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
+                        {Purpose::forward_dynamics}),
+               experiment.plant, experiment.rate_hz, span_of(start));
 }
 
 CommonGround common_ground(const Experiment& experiment) {
@@ -113,8 +146,10 @@ CommonGround common_ground(const Experiment& experiment) {
   ground.rate = fmt::format("{:a}", experiment.rate_hz);
   ground.mechanism = experiment.scene->canonical;
   for (const auto& via : experiment.path.vias)
-    ground.path += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(), via.duration, via.dwell);
-  ground.path += fmt::format("repeat {} approach {:a}", experiment.path.repeat, experiment.path.approach.value_or(0));
+    ground.path += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
+                               via.duration, via.dwell);
+  ground.path +=
+      fmt::format("repeat {} approach {:a}", experiment.path.repeat, experiment.path.approach.value_or(0));
   for (const double limit : experiment.limits.velocity) ground.path += fmt::format(" {:a}", limit);
   ground.path += " from";
   for (const double psi : experiment.plant.initial_psi) ground.path += fmt::format(" {:a}", psi);

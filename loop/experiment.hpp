@@ -24,7 +24,7 @@ Override parse_override(const std::string& text);
 
 /// What to run with a scene; docs/experiments.md describes the file. The three processes read the same one.
 struct Experiment {
-  std::string name;               ///< the file's stem
+  std::string name;  ///< the file's stem
   std::filesystem::path file;
   std::shared_ptr<const Scene> scene;             ///< of the plant and the planner
   std::shared_ptr<const Scene> controller_scene;  ///< what the controller takes the robot for
@@ -32,18 +32,20 @@ struct Experiment {
   Path path;
   ControllerSettings controller;
   PlantSettings plant;
-  std::vector<double> parameters;             ///< shared
+  std::vector<double> parameters;  ///< shared
   std::vector<double> plant_parameters;
   std::vector<double> controller_parameters;
-  double position_error_limit = 0.1;          ///< m: past it the run has diverged
+  double position_error_limit = 0.1;  ///< m: past it the run has diverged
   PlanLimits limits;
   Expectation expect;
   Evaluation evaluation = Evaluation::machine_code;  ///< of the equations of motion, everywhere
 };
 
-/// Reads an experiment with overrides on top (`scene.` before an entry of the scene's own). Throws InputError.
+/// Reads an experiment with overrides on top (`scene.` before an entry of the scene's own). Throws
+/// InputError.
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides);
-Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file, const std::vector<Override>& overrides);
+Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file,
+                           const std::vector<Override>& overrides);
 
 /// A scene file with overrides of its entries; `parameters.NAME` sets a default.
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);

@@ -16,7 +16,8 @@ void prepare_folder(const std::filesystem::path& folder) {
   if (!writable) throw RunFault("cannot_write", "cannot write into the folder " + folder.string());
 }
 
-void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan, const Recorder& recorder, const nlohmann::json& result) {
+void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan,
+          const Recorder& recorder, const nlohmann::json& result) {
   write_trajectory(folder / "trajectory.csv", experiment, plan, recorder);
   std::ofstream out(folder / "result.json");
   out << result.dump(2) << '\n';

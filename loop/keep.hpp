@@ -13,6 +13,7 @@ namespace mixloop {
 void prepare_folder(const std::filesystem::path& folder);
 
 /// Keeps a run: result.json and trajectory.csv. Throws RunFault("cannot_write").
-void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan, const Recorder& recorder, const nlohmann::json& result);
+void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan,
+          const Recorder& recorder, const nlohmann::json& result);
 
 }  // namespace mixloop

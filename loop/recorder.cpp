@@ -15,7 +15,8 @@ bool all_finite(std::span<const double> values) {
 
 Recorder::Recorder(const Experiment& experiment, const Plan& plan)
     : plan_(plan),
-      kinematics_(experiment.scene, experiment.plant_parameters, experiment.evaluation, {Purpose::end_effector}),
+      kinematics_(experiment.scene, experiment.plant_parameters, experiment.evaluation,
+                  {Purpose::end_effector}),
       axes_(experiment.scene->end_effector.axes),
       n_(static_cast<std::size_t>(experiment.scene->n())),
       rate_hz_(experiment.rate_hz),

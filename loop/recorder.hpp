@@ -42,7 +42,9 @@ class Recorder {
     return rows_.data() + static_cast<std::size_t>(slot) * (4 * n_ + 1);
   }
   double* row(std::int64_t k) { return const_cast<double*>(std::as_const(*this).row(k)); }
-  std::span<const double> column(std::int64_t k, std::size_t index) const { return {row(k) + index * n_, n_}; }
+  std::span<const double> column(std::int64_t k, std::size_t index) const {
+    return {row(k) + index * n_, n_};
+  }
   bool diverged(std::int64_t k);
 
   const Plan& plan_;

@@ -33,7 +33,8 @@ Verdict judge(const Experiment& experiment, const Measures& measures) {
   return verdict;
 }
 
-nlohmann::json result_json(const Experiment& experiment, const Measures& measures, const std::string& route, double wall_time) {
+nlohmann::json result_json(const Experiment& experiment, const Measures& measures, const std::string& route,
+                           double wall_time) {
   const Verdict verdict = judge(experiment, measures);
   nlohmann::json json = {
       {"experiment", experiment.name},
@@ -66,16 +67,25 @@ nlohmann::json result_json(const Experiment& experiment, const Measures& measure
 std::string summary(const Experiment& experiment, const nlohmann::json& result) {
   std::string text = fmt::format("{}: {}\n", experiment.name, result.at("verdict").get<std::string>());
   if (result.contains("diverged_at"))
-    text += fmt::format("  diverged at {:.6g} s: the position error passed {:.6g} mm or a value was not finite; nothing of that tick was published\n",
-                        result.at("diverged_at").get<double>(), experiment.position_error_limit * 1e3);
-  if (result.contains("interrupted_at")) text += fmt::format("  interrupted at {:.6g} s; what follows is up to there\n", result.at("interrupted_at").get<double>());
-  text += fmt::format("  position error   max {:.7f} mm at {:.6g} s, final {:.7f} mm, rms {:.7f} mm\n", result.at("max_position_error").get<double>() * 1e3,
-                      result.at("time_of_max_position_error").get<double>(), result.at("final_position_error").get<double>() * 1e3, result.at("rms_position_error").get<double>() * 1e3);
+    text += fmt::format(
+        "  diverged at {:.6g} s: the position error passed {:.6g} mm or a value was not finite; nothing of "
+        "that tick was published\n",
+        result.at("diverged_at").get<double>(), experiment.position_error_limit * 1e3);
+  if (result.contains("interrupted_at"))
+    text += fmt::format("  interrupted at {:.6g} s; what follows is up to there\n",
+                        result.at("interrupted_at").get<double>());
+  text += fmt::format("  position error   max {:.7f} mm at {:.6g} s, final {:.7f} mm, rms {:.7f} mm\n",
+                      result.at("max_position_error").get<double>() * 1e3,
+                      result.at("time_of_max_position_error").get<double>(),
+                      result.at("final_position_error").get<double>() * 1e3,
+                      result.at("rms_position_error").get<double>() * 1e3);
   text += "  max torque      ";
   for (const auto& value : result.at("max_torque")) text += fmt::format(" {:.5f}", value.get<double>());
   text += " N m\n";
-  text += fmt::format("  {} ticks at {:g} Hz by {} in {:.3f} s ({})\n", result.at("ticks").get<std::int64_t>(), experiment.rate_hz, result.at("route").get<std::string>(),
-                      result.at("wall_time").get<double>(), result.at("evaluation").get<std::string>());
+  text +=
+      fmt::format("  {} ticks at {:g} Hz by {} in {:.3f} s ({})\n", result.at("ticks").get<std::int64_t>(),
+                  experiment.rate_hz, result.at("route").get<std::string>(),
+                  result.at("wall_time").get<double>(), result.at("evaluation").get<std::string>());
   text += "  trajectory       " + result.at("trajectory_sha256").get<std::string>() + "\n";
   for (const auto& line : result.at("missed")) text += "  missed: " + line.get<std::string>() + "\n";
   return text;

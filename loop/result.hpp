@@ -10,7 +10,8 @@
 
 namespace mixloop {
 
-/// Exit status of a command, DESIGN: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time, 130 interrupted.
+/// Exit status of a command, DESIGN: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time, 130
+/// interrupted.
 enum ExitStatus : int { kHeld = 0, kMissed = 1, kBadInput = 2, kRunFault = 3, kInterrupted = 130 };
 
 /// A run judged against what its experiment expects.
@@ -22,7 +23,8 @@ struct Verdict {
 Verdict judge(const Experiment& experiment, const Measures& measures);
 
 /// The JSON of a run: measures, verdict, and how it came about (route, evaluation, parameters, versions).
-nlohmann::json result_json(const Experiment& experiment, const Measures& measures, const std::string& route, double wall_time);
+nlohmann::json result_json(const Experiment& experiment, const Measures& measures, const std::string& route,
+                           double wall_time);
 
 /// The summary that a person reads.
 std::string summary(const Experiment& experiment, const nlohmann::json& result);

@@ -3,11 +3,13 @@
 
 namespace mixloop {
 
-void simulate(const Experiment& experiment, const Plan& plan, Recorder& recorder, const std::function<bool(std::int64_t k)>& go_on) {
+void simulate(const Experiment& experiment, const Plan& plan, Recorder& recorder,
+              const std::function<bool(std::int64_t k)>& go_on) {
   Plant plant = make_plant(experiment, plan);
   Controller controller = make_controller(experiment);
   Vector tau = Vector::Zero(experiment.scene->n());
-  const auto control = [&](int stage, double t, std::span<const double> psi, std::span<const double> psid, std::span<double> out) {
+  const auto control = [&](int stage, double t, std::span<const double> psi, std::span<const double> psid,
+                           std::span<double> out) {
     controller.torque(psi, psid, plan.at_stage(plant.tick(), stage), t, out);
   };
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {

@@ -28,7 +28,8 @@ std::string header(std::size_t n) {
 
 }  // namespace
 
-void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan, const Recorder& recorder) {
+void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan,
+                      const Recorder& recorder) {
   const auto n = static_cast<std::size_t>(experiment.scene->n());
   TruthReader truth_of(experiment, recorder);
   std::FILE* out = std::fopen(file.c_str(), "w");
@@ -41,18 +42,21 @@ void write_trajectory(const std::filesystem::path& file, const Experiment& exper
   for (std::int64_t k = 0; k < recorder.ticks_recorded(); ++k) {
     line.clear();
     fmt::format_to(std::back_inserter(line), "{}", recorder.time(k));
-    for (const auto& row : {recorder.psi(k), recorder.psid(k), recorder.commanded(k), recorder.applied(k)}) add(row);
+    for (const auto& row : {recorder.psi(k), recorder.psid(k), recorder.commanded(k), recorder.applied(k)})
+      add(row);
     const auto& desired = plan.at(k);
     const Truth& truth = truth_of.at(k);
-    for (const double* vector : {desired.position.data(), desired.velocity.data(), desired.acceleration.data(), truth.position.data(),
-                                 truth.velocity.data(), truth.acceleration.data()})
+    for (const double* vector :
+         {desired.position.data(), desired.velocity.data(), desired.acceleration.data(),
+          truth.position.data(), truth.velocity.data(), truth.acceleration.data()})
       add(std::span(vector, 3));
     add(std::array{truth.kinetic_energy, truth.potential_energy, truth.work});
     line.push_back('\n');
     std::fwrite(line.data(), 1, line.size(), out);
   }
   const bool failed = std::ferror(out) != 0;
-  if (std::fclose(out) != 0 || failed) throw RunFault("cannot_write", "cannot write all of " + file.string() + " (is the disk full?)");
+  if (std::fclose(out) != 0 || failed)
+    throw RunFault("cannot_write", "cannot write all of " + file.string() + " (is the disk full?)");
 }
 
 }  // namespace mixloop

@@ -7,10 +7,10 @@
 
 namespace mixloop {
 
-/// Writes the recorded ticks as CSV, a line each, numbers that read back to the same double: t, psi, psid, tau
-/// (commanded), tau_applied, then the end effector's position, velocity and acceleration, desired and actual, and the energies and
-/// the motors' work.
-/// Throws RunFault("cannot_write").
-void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan, const Recorder& recorder);
+/// Writes the recorded ticks as CSV, a line each, numbers that read back to the same double: t, psi, psid,
+/// tau (commanded), tau_applied, then the end effector's position, velocity and acceleration, desired and
+/// actual, and the energies and the motors' work. Throws RunFault("cannot_write").
+void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan,
+                      const Recorder& recorder);
 
 }  // namespace mixloop

@@ -5,7 +5,8 @@ namespace mixloop {
 
 TruthReader::TruthReader(const Experiment& experiment, const Recorder& recorder)
     : recorder_(recorder),
-      dynamics_(experiment.scene, experiment.plant_parameters, experiment.evaluation, {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy}),
+      dynamics_(experiment.scene, experiment.plant_parameters, experiment.evaluation,
+                {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy}),
       hand_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
   truth_.psidd.resize(static_cast<std::size_t>(experiment.scene->n()));
 }

@@ -7,8 +7,8 @@ namespace mixloop {
 
 /// What the plant knows of a recorded tick beside its state, under the torque in effect from it on.
 struct Truth {
-  std::vector<double> psidd;                                ///< n
-  Eigen::Vector3d position, velocity, acceleration;         ///< of the end effector, inertial frame
+  std::vector<double> psidd;                                  ///< n
+  Eigen::Vector3d position, velocity, acceleration;           ///< of the end effector, inertial frame
   double kinetic_energy = 0, potential_energy = 0, work = 0;  ///< J
 };
 

@@ -28,17 +28,16 @@ bool fits(const Dimension& found, const Dimension& wanted) {
 }
 
 std::string to_string(const Dimension& dimension) {
-  static constexpr std::pair<Dimension, const char*> kWords[] = {
-      {kPure, "a number or an angle"},
-      {kLength, "a length (m)"},
-      {kMass, "a mass (kg)"},
-      {kTime, "a time (s)"},
-      {kFrequency, "a rate (1/s)"},
-      {kInertia, "a moment of inertia (kg m^2)"},
-      {kAcceleration, "an acceleration (m/s^2)"},
-      {{2, 0, -2, false}, "a speed (m/s)"},
-      {kForce, "a force (N)"},
-      {kMoment, "a moment (N m)"}};
+  static constexpr std::pair<Dimension, const char*> kWords[] = {{kPure, "a number or an angle"},
+                                                                 {kLength, "a length (m)"},
+                                                                 {kMass, "a mass (kg)"},
+                                                                 {kTime, "a time (s)"},
+                                                                 {kFrequency, "a rate (1/s)"},
+                                                                 {kInertia, "a moment of inertia (kg m^2)"},
+                                                                 {kAcceleration, "an acceleration (m/s^2)"},
+                                                                 {{2, 0, -2, false}, "a speed (m/s)"},
+                                                                 {kForce, "a force (N)"},
+                                                                 {kMoment, "a moment (N m)"}};
   for (const auto& [known, word] : kWords)
     if (known.same_powers(dimension)) return word;
   std::string text;

@@ -12,10 +12,14 @@ namespace mixloop {
 
 std::string describe(const Node& node) {
   switch (node.kind) {
-    case Node::Kind::kEmpty: return "nothing";
-    case Node::Kind::kScalar: return in_quotes(node.text);
-    case Node::Kind::kSequence: return fmt::format("a list of {}", node.items.size());
-    case Node::Kind::kMapping: return "a mapping";
+    case Node::Kind::kEmpty:
+      return "nothing";
+    case Node::Kind::kScalar:
+      return in_quotes(node.text);
+    case Node::Kind::kSequence:
+      return fmt::format("a list of {}", node.items.size());
+    case Node::Kind::kMapping:
+      return "a mapping";
   }
   return "";
 }
@@ -52,13 +56,15 @@ bool flag_of(const Node& node, const std::string& what) {
     if (text == word) return true;
   for (const char* word : {"false", "no", "off"})
     if (text == word) return false;
-  throw InputError("wrong_kind", node.place, "found " + in_quotes(text) + "; expected true or false for " + what);
+  throw InputError("wrong_kind", node.place,
+                   "found " + in_quotes(text) + "; expected true or false for " + what);
 }
 
 Mapping::Mapping(NodePtr node, std::string what, std::vector<std::string> known)
     : node_(std::move(node)), what_(std::move(what)) {
   if (node_->kind != Node::Kind::kMapping)
-    throw InputError("wrong_kind", node_->place, "found " + describe(*node_) + "; expected " + what_ + " as a mapping");
+    throw InputError("wrong_kind", node_->place,
+                     "found " + describe(*node_) + "; expected " + what_ + " as a mapping");
   for (const auto& entry : node_->entries)
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
       throw InputError("unknown_key", entry.place,

@@ -18,11 +18,16 @@ Formula constant_formula(double value, const Dimension& dimension, const Place& 
 }
 
 void check_name(const std::string& name, const Place& place) {
-  const bool well_formed = !name.empty() && starts_name(name[0]) && name.size() <= 64 && std::all_of(name.begin(), name.end(), goes_on_name);
+  const bool well_formed = !name.empty() && starts_name(name[0]) && name.size() <= 64 &&
+                           std::all_of(name.begin(), name.end(), goes_on_name);
   if (!well_formed)
-    throw InputError("invalid_name", place, in_quotes(name) + " is no name; expected a letter, then letters, digits and _, at most 64");
-  if (find_unit(name)) throw InputError("invalid_name", place, "'" + name + "' is a unit; choose another name");
-  if (find_function(name) || name == "pi") throw InputError("invalid_name", place, "'" + name + "' has a meaning in formulas; choose another name");
+    throw InputError(
+        "invalid_name", place,
+        in_quotes(name) + " is no name; expected a letter, then letters, digits and _, at most 64");
+  if (find_unit(name))
+    throw InputError("invalid_name", place, "'" + name + "' is a unit; choose another name");
+  if (find_function(name) || name == "pi")
+    throw InputError("invalid_name", place, "'" + name + "' has a meaning in formulas; choose another name");
 }
 
 void Scope::define(const std::string& name, Meaning meaning) {
@@ -30,11 +35,15 @@ void Scope::define(const std::string& name, Meaning meaning) {
   const Place place = meaning.place;
   const auto [known, is_new] = meanings_.emplace(name, std::move(meaning));
   if (!is_new)
-    throw InputError("doubly_defined", place,
-                     "'" + name + "' is defined twice" + (known->second.place.line > 0 ? fmt::format(", first at line {}", known->second.place.line) : ""));
+    throw InputError(
+        "doubly_defined", place,
+        "'" + name + "' is defined twice" +
+            (known->second.place.line > 0 ? fmt::format(", first at line {}", known->second.place.line)
+                                          : ""));
 }
 
-void Scope::define_symbol(const std::string& name, int symbol, const Dimension& dimension, const Place& place) {
+void Scope::define_symbol(const std::string& name, int symbol, const Dimension& dimension,
+                          const Place& place) {
   define(name, {symbol, {{{.op = Op::kSymbol, .symbol = symbol}}, dimension, place}, place});
 }
 
@@ -55,7 +64,8 @@ std::vector<std::string> Scope::names() const {
 
 void require_dimension(const Formula& formula, const Dimension& wanted, const std::string& what) {
   if (!fits(formula.dimension, wanted))
-    throw InputError("wrong_dimension", formula.place, what + " is " + to_string(formula.dimension) + "; expected " + to_string(wanted));
+    throw InputError("wrong_dimension", formula.place,
+                     what + " is " + to_string(formula.dimension) + "; expected " + to_string(wanted));
 }
 
 std::vector<std::string> names_in(std::string_view text) {
@@ -87,15 +97,30 @@ int degree(const Formula& formula, const std::function<bool(int)>& chosen) {
     const int right = node.right >= 0 ? degrees[static_cast<std::size_t>(node.right)] : 0;
     int result = 2;
     switch (node.op) {
-      case Op::kConstant: result = 0; break;
-      case Op::kSymbol: result = chosen(node.symbol) ? 1 : 0; break;
+      case Op::kConstant:
+        result = 0;
+        break;
+      case Op::kSymbol:
+        result = chosen(node.symbol) ? 1 : 0;
+        break;
       case Op::kAdd:
-      case Op::kSubtract: result = std::max(left, right); break;
-      case Op::kNegate: result = left; break;
-      case Op::kMultiply: result = std::min(2, left + right); break;
-      case Op::kDivide: result = right == 0 ? left : 2; break;
-      case Op::kPower: result = left == 0 || node.exponent == 0 ? 0 : (node.exponent == 1 ? left : 2); break;
-      default: result = left == 0 && right == 0 ? 0 : 2;
+      case Op::kSubtract:
+        result = std::max(left, right);
+        break;
+      case Op::kNegate:
+        result = left;
+        break;
+      case Op::kMultiply:
+        result = std::min(2, left + right);
+        break;
+      case Op::kDivide:
+        result = right == 0 ? left : 2;
+        break;
+      case Op::kPower:
+        result = left == 0 || node.exponent == 0 ? 0 : (node.exponent == 1 ? left : 2);
+        break;
+      default:
+        result = left == 0 && right == 0 ? 0 : 2;
     }
     degrees.push_back(result);
   }

@@ -20,8 +20,24 @@ struct Node;
 /// nodes and 256 levels, so that an evaluation may recurse.
 struct Formula {
   enum class Operator {
-    kConstant, kSymbol, kAdd, kSubtract, kMultiply, kDivide, kNegate, kPower,
-    kSin, kCos, kTan, kAsin, kAcos, kAtan, kAtan2, kSqrt, kExp, kLog
+    kConstant,
+    kSymbol,
+    kAdd,
+    kSubtract,
+    kMultiply,
+    kDivide,
+    kNegate,
+    kPower,
+    kSin,
+    kCos,
+    kTan,
+    kAsin,
+    kAcos,
+    kAtan,
+    kAtan2,
+    kSqrt,
+    kExp,
+    kLog
   };
   struct Node {
     Operator op = Operator::kConstant;
@@ -105,24 +121,48 @@ T evaluate_node(const Formula& formula, int index, const Lookup& symbol) {
   const auto left = [&] { return evaluate_node<T>(formula, node.left, symbol); };
   const auto right = [&] { return evaluate_node<T>(formula, node.right, symbol); };
   switch (node.op) {
-    case Op::kConstant: return T(node.value);
-    case Op::kSymbol: return symbol(node.symbol);
-    case Op::kAdd: return left() + right();
-    case Op::kSubtract: return left() - right();
-    case Op::kMultiply: return left() * right();
-    case Op::kDivide: return left() / right();
-    case Op::kNegate: return -left();
-    case Op::kPower: return whole_power(left(), node.exponent);
-    case Op::kSin: return sin(left());
-    case Op::kCos: return cos(left());
-    case Op::kTan: { const T x = left(); return sin(x) / cos(x); }
-    case Op::kAsin: { const T x = left(); return atan2(x, sqrt((T(1) - x) * (T(1) + x))); }
-    case Op::kAcos: { const T x = left(); return atan2(sqrt((T(1) - x) * (T(1) + x)), x); }
-    case Op::kAtan: return atan2(left(), T(1));
-    case Op::kAtan2: return atan2(left(), right());
-    case Op::kSqrt: return sqrt(left());
-    case Op::kExp: return exp(left());
-    case Op::kLog: return log(left());
+    case Op::kConstant:
+      return T(node.value);
+    case Op::kSymbol:
+      return symbol(node.symbol);
+    case Op::kAdd:
+      return left() + right();
+    case Op::kSubtract:
+      return left() - right();
+    case Op::kMultiply:
+      return left() * right();
+    case Op::kDivide:
+      return left() / right();
+    case Op::kNegate:
+      return -left();
+    case Op::kPower:
+      return whole_power(left(), node.exponent);
+    case Op::kSin:
+      return sin(left());
+    case Op::kCos:
+      return cos(left());
+    case Op::kTan: {
+      const T x = left();
+      return sin(x) / cos(x);
+    }
+    case Op::kAsin: {
+      const T x = left();
+      return atan2(x, sqrt((T(1) - x) * (T(1) + x)));
+    }
+    case Op::kAcos: {
+      const T x = left();
+      return atan2(sqrt((T(1) - x) * (T(1) + x)), x);
+    }
+    case Op::kAtan:
+      return atan2(left(), T(1));
+    case Op::kAtan2:
+      return atan2(left(), right());
+    case Op::kSqrt:
+      return sqrt(left());
+    case Op::kExp:
+      return exp(left());
+    case Op::kLog:
+      return log(left());
   }
   return T(0);
 }

@@ -22,10 +22,11 @@ constexpr std::size_t kMostNodes = 4096;
 constexpr int kLargestPower = 1000;
 
 constexpr std::array kFunctions = {
-    NamedFunction{"sin", Op::kSin, 1},   NamedFunction{"cos", Op::kCos, 1},   NamedFunction{"tan", Op::kTan, 1},
-    NamedFunction{"asin", Op::kAsin, 1}, NamedFunction{"acos", Op::kAcos, 1}, NamedFunction{"atan", Op::kAtan, 1},
-    NamedFunction{"sqrt", Op::kSqrt, 1}, NamedFunction{"exp", Op::kExp, 1},   NamedFunction{"log", Op::kLog, 1},
-    NamedFunction{"atan2", Op::kAtan2, 2}};
+    NamedFunction{"sin", Op::kSin, 1},   NamedFunction{"cos", Op::kCos, 1},
+    NamedFunction{"tan", Op::kTan, 1},   NamedFunction{"asin", Op::kAsin, 1},
+    NamedFunction{"acos", Op::kAcos, 1}, NamedFunction{"atan", Op::kAtan, 1},
+    NamedFunction{"sqrt", Op::kSqrt, 1}, NamedFunction{"exp", Op::kExp, 1},
+    NamedFunction{"log", Op::kLog, 1},   NamedFunction{"atan2", Op::kAtan2, 2}};
 
 /// nan, inf or infinity, with or without YAML's dot, in any case.
 bool is_not_finite(std::string_view word) {
@@ -44,7 +45,8 @@ class Parser {
   Formula parse() {
     Formula formula = sum();
     skip_space();
-    if (at_ < text_.size()) fail("invalid_formula", at_, fmt::format("found {}; expected an operator", rest()));
+    if (at_ < text_.size())
+      fail("invalid_formula", at_, fmt::format("found {}; expected an operator", rest()));
     formula.place = scalar_.place;
     return formula;
   }
@@ -53,7 +55,8 @@ class Parser {
   /// Counted in sign(), which every recursion passes.
   struct Nesting {
     explicit Nesting(Parser& parser) : depth(parser.depth_) {
-      if (++depth > kDeepest) parser.fail("too_deep", parser.at_, fmt::format("nested deeper than {} levels", kDeepest));
+      if (++depth > kDeepest)
+        parser.fail("too_deep", parser.at_, fmt::format("nested deeper than {} levels", kDeepest));
     }
     ~Nesting() { --depth; }
     Nesting(const Nesting&) = delete;
@@ -66,7 +69,9 @@ class Parser {
   }
   std::string rest() const { return in_quotes(text_.substr(at_), 20); }
   void skip_space() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r')) ++at_;
+    while (at_ < text_.size() &&
+           (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
+      ++at_;
   }
   bool take(char c) {
     skip_space();
@@ -93,9 +98,12 @@ class Parser {
     for (;;) {
       skip_space();
       const std::size_t at = at_;
-      if (take('+')) value = joined(Op::kAdd, std::move(value), product(), at);
-      else if (take('-')) value = joined(Op::kSubtract, std::move(value), product(), at);
-      else return value;
+      if (take('+'))
+        value = joined(Op::kAdd, std::move(value), product(), at);
+      else if (take('-'))
+        value = joined(Op::kSubtract, std::move(value), product(), at);
+      else
+        return value;
     }
   }
 
@@ -104,9 +112,12 @@ class Parser {
     for (;;) {
       skip_space();
       const std::size_t at = at_;
-      if (take('*')) value = joined(Op::kMultiply, std::move(value), sign(), at);
-      else if (take('/')) value = joined(Op::kDivide, std::move(value), sign(), at);
-      else return value;
+      if (take('*'))
+        value = joined(Op::kMultiply, std::move(value), sign(), at);
+      else if (take('/'))
+        value = joined(Op::kDivide, std::move(value), sign(), at);
+      else
+        return value;
     }
   }
 
@@ -141,7 +152,8 @@ class Parser {
     const char c = text_[at_];
     if (is_digit(c) || (c == '.' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]))) return number();
     if (starts_name(c)) return named();
-    if (c == '.' && is_not_finite(text_.substr(at_, 4))) fail("not_finite", at, "a number that is not finite");
+    if (c == '.' && is_not_finite(text_.substr(at_, 4)))
+      fail("not_finite", at, "a number that is not finite");
     fail("invalid_formula", at, fmt::format("found {}; expected a value", rest()));
   }
 
@@ -149,16 +161,20 @@ class Parser {
     const std::size_t at = at_;
     double value = 0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (error == std::errc::result_out_of_range) fail("not_finite", at, "a number too large or too small for a double");
+    if (error == std::errc::result_out_of_range)
+      fail("not_finite", at, "a number too large or too small for a double");
     if (error != std::errc()) fail("invalid_formula", at, fmt::format("{} is no number", rest()));
     at_ = static_cast<std::size_t>(end - text_.data());
     Formula result = constant_formula(value, kOpen);
     for (std::string_view name = peek_name(); !name.empty(); name = peek_name()) {
       const std::size_t unit_at = at_;
       const auto unit = find_unit(name);
-      if (!unit) fail("unknown_unit", unit_at, fmt::format("unknown unit {}{}", in_quotes(name), suggestion(name, unit_names())));
+      if (!unit)
+        fail("unknown_unit", unit_at,
+             fmt::format("unknown unit {}{}", in_quotes(name), suggestion(name, unit_names())));
       at_ += name.size();
-      result = joined(Op::kMultiply, std::move(result), power_of(constant_formula(unit->factor, unit->dimension)), unit_at);
+      result = joined(Op::kMultiply, std::move(result),
+                      power_of(constant_formula(unit->factor, unit->dimension)), unit_at);
       if (at_ + 1 < text_.size() && text_[at_] == '.' && starts_name(text_[at_ + 1])) ++at_;  // kg.m^2
     }
     return result;
@@ -173,7 +189,9 @@ class Parser {
     if (const auto unit = find_unit(name)) return constant_formula(unit->factor, unit->dimension);
     if (is_not_finite(name)) fail("not_finite", at, "a number that is not finite");
     const auto known = scope_.names();
-    fail("undefined_symbol", at, "undefined symbol " + in_quotes(name) + (known.empty() ? "; expected a number" : suggestion(name, known)));
+    fail("undefined_symbol", at,
+         "undefined symbol " + in_quotes(name) +
+             (known.empty() ? "; expected a number" : suggestion(name, known)));
   }
 
   Formula call(const NamedFunction& function, std::size_t at) {
@@ -210,7 +228,8 @@ class Parser {
     const int left_root = static_cast<int>(left.nodes.size()) - 1;
     const int right_root = append(left, right, at);
     left.height = std::max(left.height, right.height);
-    return rooted(std::move(left), {.op = op, .left = left_root, .right = right_root}, dimension, constant, at);
+    return rooted(std::move(left), {.op = op, .left = left_root, .right = right_root}, dimension, constant,
+                  at);
   }
 
   Formula applied(Op op, Formula operand, std::size_t at) const {
@@ -224,15 +243,20 @@ class Parser {
     const Dimension dimension = power(base.dimension, exponent);
     const bool constant = base.is_constant();
     const int root = static_cast<int>(base.nodes.size()) - 1;
-    return rooted(std::move(base), {.op = Op::kPower, .left = root, .exponent = exponent}, dimension, constant, at);
+    return rooted(std::move(base), {.op = Op::kPower, .left = root, .exponent = exponent}, dimension,
+                  constant, at);
   }
 
   /// `operands` under a new root, folded where they are constant.
-  Formula rooted(Formula operands, const Formula::Node& root, const Dimension& dimension, bool constant, std::size_t at) const {
+  Formula rooted(Formula operands, const Formula::Node& root, const Dimension& dimension, bool constant,
+                 std::size_t at) const {
     for (const int power2 : {dimension.length2, dimension.mass2, dimension.time2})
-      if (std::abs(power2) > kLargestPower) fail("wrong_dimension", at, fmt::format("a unit's power past {}", kLargestPower / 2));
-    if (++operands.height > kHighest) fail("too_large", at, fmt::format("a formula of more than {} levels", kHighest));
-    if (operands.nodes.size() >= kMostNodes) fail("too_large", at, fmt::format("a formula of more than {} terms", kMostNodes));
+      if (std::abs(power2) > kLargestPower)
+        fail("wrong_dimension", at, fmt::format("a unit's power past {}", kLargestPower / 2));
+    if (++operands.height > kHighest)
+      fail("too_large", at, fmt::format("a formula of more than {} levels", kHighest));
+    if (operands.nodes.size() >= kMostNodes)
+      fail("too_large", at, fmt::format("a formula of more than {} terms", kMostNodes));
     operands.nodes.push_back(root);
     operands.dimension = dimension;
     return constant ? folded(operands, at) : operands;
@@ -249,18 +273,22 @@ class Parser {
     if (op == Op::kDivide) return a / b;
     const auto sum = sum_dimension(a, b);
     if (!sum)
-      fail("wrong_dimension", at, fmt::format("{} and {} cannot be {}", to_string(a), to_string(b),
-                                              op == Op::kAtan2 ? "the two sides of one angle" : "added or subtracted"));
+      fail("wrong_dimension", at,
+           fmt::format("{} and {} cannot be {}", to_string(a), to_string(b),
+                       op == Op::kAtan2 ? "the two sides of one angle" : "added or subtracted"));
     return op == Op::kAtan2 ? kPure : *sum;
   }
 
   Dimension operand_dimension(Op op, const Dimension& a, std::size_t at) const {
     if (op == Op::kNegate) return a;
     if (op == Op::kSqrt) {
-      if (a.length2 % 2 != 0 || a.mass2 % 2 != 0 || a.time2 % 2 != 0) fail("wrong_dimension", at, "the square root of " + to_string(a));
+      if (a.length2 % 2 != 0 || a.mass2 % 2 != 0 || a.time2 % 2 != 0)
+        fail("wrong_dimension", at, "the square root of " + to_string(a));
       return {a.length2 / 2, a.mass2 / 2, a.time2 / 2, a.open};
     }
-    if (!a.pure()) fail("wrong_dimension", at, fmt::format("a function of {}; expected a number or an angle", to_string(a)));
+    if (!a.pure())
+      fail("wrong_dimension", at,
+           fmt::format("a function of {}; expected a number or an angle", to_string(a)));
     return kPure;
   }
 

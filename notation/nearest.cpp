@@ -26,7 +26,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same(i - 1, j - 1) ? 0 : 1)});
-      if (i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1)) row[j] = std::min(row[j], before_last[j - 2] + 1);
+      if (i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1))
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
   }
   return row[b.size()];
@@ -51,7 +52,8 @@ std::string suggestion(std::string_view word, std::span<const std::string> candi
   if (const auto near = nearest(word, candidates); !near.empty()) return "; did you mean '" + near + "'?";
   if (candidates.empty()) return "; none is known here";
   std::string text = candidates.size() == 1 ? "; expected " : "; expected one of ";
-  for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i) text += (i ? ", " : "") + in_quotes(candidates[i]);
+  for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i)
+    text += (i ? ", " : "") + in_quotes(candidates[i]);
   if (candidates.size() > kMostListed) text += ", ... (" + std::to_string(candidates.size()) + " in all)";
   return text;
 }

@@ -53,7 +53,8 @@ class PathReader {
     const auto [end, error] = std::from_chars(path_.data() + at_, last, step.index);
     if (error != std::errc() || end == last || *end != ']') fail("expected an index such as [0]");
     at_ = static_cast<std::size_t>(end - path_.data()) + 1;
-    if (at_ < path_.size() && path_[at_] != '.' && path_[at_] != '[') fail("expected '.' or '[' after an index");
+    if (at_ < path_.size() && path_[at_] != '.' && path_[at_] != '[')
+      fail("expected '.' or '[' after an index");
     return step;
   }
 
@@ -69,13 +70,15 @@ NodePtr replaced(const NodePtr& node, std::span<const Step> steps, const NodePtr
   auto copy = node ? std::make_shared<Node>(*node) : std::make_shared<Node>();
   if (step.is_index) {
     if (copy->kind != Node::Kind::kSequence || step.index >= copy->items.size())
-      throw InputError("invalid_path", place, fmt::format("no item [{}] there: it is {}", step.index, describe(*copy)));
+      throw InputError("invalid_path", place,
+                       fmt::format("no item [{}] there: it is {}", step.index, describe(*copy)));
     copy->items[step.index] = replaced(copy->items[step.index], steps.subspan(1), value, place);
     return copy;
   }
   if (copy->kind == Node::Kind::kEmpty) copy->kind = Node::Kind::kMapping, copy->place = place;
   if (copy->kind != Node::Kind::kMapping)
-    throw InputError("invalid_path", place, "no entry " + in_quotes(step.key) + " there: it is " + describe(*copy));
+    throw InputError("invalid_path", place,
+                     "no entry " + in_quotes(step.key) + " there: it is " + describe(*copy));
   for (auto& entry : copy->entries)
     if (entry.key == step.key) {
       entry.value = replaced(entry.value, steps.subspan(1), value, place);

@@ -28,7 +28,10 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; 
 class PieceFinder {
  public:
   PieceFinder(std::string_view source, const YAML::Mark& mark)
-      : source_(source), at_(static_cast<std::size_t>(mark.pos)), line_(mark.line + 1), column_(mark.column + 1) {}
+      : source_(source),
+        at_(static_cast<std::size_t>(mark.pos)),
+        line_(mark.line + 1),
+        column_(mark.column + 1) {}
 
   std::vector<Node::Piece> pieces(std::string_view text) {
     if (source_.substr(std::min(at_, source_.size())).starts_with(text)) return {};
@@ -38,7 +41,8 @@ class PieceFinder {
       if (is_space(text[i])) continue;
       while (is_space(peek())) step();
       if (peek() != text[i]) break;
-      if (found.empty() || line_ != found.back().line || column_ - found.back().column != static_cast<int>(i - found.back().offset))
+      if (found.empty() || line_ != found.back().line ||
+          column_ - found.back().column != static_cast<int>(i - found.back().offset))
         found.push_back({i, line_, column_});
       step();
     }
@@ -168,7 +172,8 @@ class TreeBuilder final : public YAML::EventHandler {
     Open& parent = open_.back();
     parent.size += size;
     if (parent.size > kMostValues)
-      throw InputError("too_large", at, fmt::format("more than {} values once aliases are followed", kMostValues));
+      throw InputError("too_large", at,
+                       fmt::format("more than {} values once aliases are followed", kMostValues));
     if (parent.node->kind == Node::Kind::kSequence) {
       parent.node->items.push_back(std::move(node));
     } else if (!parent.has_key) {
@@ -183,7 +188,9 @@ class TreeBuilder final : public YAML::EventHandler {
     if (key.kind != Node::Kind::kScalar)
       throw InputError("wrong_kind", at, "a key is " + describe(key) + "; expected a name");
     if (const auto [known, is_new] = parent.lines.emplace(key.text, at.line); !is_new)
-      throw InputError("doubly_defined", at, fmt::format("{} is given twice, first at line {}", in_quotes(key.text), known->second));
+      throw InputError(
+          "doubly_defined", at,
+          fmt::format("{} is given twice, first at line {}", in_quotes(key.text), known->second));
     parent.has_key = true;
     parent.key = key.text;
     parent.key_place = at;
@@ -198,7 +205,8 @@ class TreeBuilder final : public YAML::EventHandler {
 
 void refuse_large(std::size_t size, const std::string& file) {
   if (size > kLargestText)
-    throw InputError("too_large", {file}, fmt::format("larger than {} bytes; expected a scene or an experiment", kLargestText));
+    throw InputError("too_large", {file},
+                     fmt::format("larger than {} bytes; expected a scene or an experiment", kLargestText));
 }
 
 void refuse_binary(std::string_view text, const std::string& file) {
@@ -208,7 +216,8 @@ void refuse_binary(std::string_view text, const std::string& file) {
   const auto line_start = before.rfind('\n') + 1;  // npos + 1 is 0
   const int line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
   throw InputError("not_text", {file, line, static_cast<int>(*at - line_start) + 1},
-                   fmt::format("found the byte 0x{:02x}; expected text, YAML in UTF-8", static_cast<unsigned char>(text[*at])));
+                   fmt::format("found the byte 0x{:02x}; expected text, YAML in UTF-8",
+                               static_cast<unsigned char>(text[*at])));
 }
 
 }  // namespace
@@ -224,12 +233,14 @@ NodePtr parse_document(std::string_view text, const std::string& file) {
     YAML::Parser parser(stream);
     parser.HandleNextDocument(builder);
     const NodePtr root = builder.root();
-    if (!root || root->kind == Node::Kind::kEmpty) throw InputError("empty_file", {file}, "found nothing; expected YAML");
+    if (!root || root->kind == Node::Kind::kEmpty)
+      throw InputError("empty_file", {file}, "found nothing; expected YAML");
     if (parser.HandleNextDocument(builder))
       throw InputError("invalid_yaml", builder.root()->place, "found a second document; expected one");
     return root;
   } catch (const YAML::Exception& error) {
-    throw InputError("invalid_yaml", {file, error.mark.line + 1, error.mark.column + 1}, "no valid YAML: " + error.msg);
+    throw InputError("invalid_yaml", {file, error.mark.line + 1, error.mark.column + 1},
+                     "no valid YAML: " + error.msg);
   }
 }
 

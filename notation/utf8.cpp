@@ -46,7 +46,8 @@ std::string in_quotes(std::string_view text, std::size_t most) {
   std::size_t end = std::min(text.size(), most);
   while (end > 0 && end < text.size() && continues(text, end)) --end;
   std::string shown(text.substr(0, end));
-  std::replace_if(shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
   return "'" + shown + (end < text.size() ? "...'" : "'");
 }
 

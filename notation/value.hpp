@@ -14,7 +14,8 @@ namespace mixloop {
 double number_of(const Node& node, const Dimension& wanted, const std::string& what);
 
 /// A list of `size` such numbers (a lone one counts as a list of one); any size when `size` is 0.
-std::vector<double> numbers_of(const NodePtr& node, const Dimension& wanted, std::size_t size, const std::string& what);
+std::vector<double> numbers_of(const NodePtr& node, const Dimension& wanted, std::size_t size,
+                               const std::string& what);
 
 /// A whole number within [least, most].
 long whole_number_of(const Node& node, long least, long most, const std::string& what);

@@ -28,8 +28,10 @@ void require_start(const state_t& first, const Reference& start) {
   for (std::size_t i = 0; i < first.psi_measured.size(); ++i) {
     const double desired = start.psi[static_cast<Eigen::Index>(i)];
     if (std::abs(first.psi_measured[i] - desired) <= kNear) continue;
-    throw RunFault("not_at_start", fmt::format("motor {} of the plant stands at {:.6g}, the references start at {:.6g}; say where it stands (plant.initial), so that a move to the start is planned",
-                                               i + 1, first.psi_measured[i], desired));
+    throw RunFault("not_at_start",
+                   fmt::format("motor {} of the plant stands at {:.6g}, the references start at {:.6g}; say "
+                               "where it stands (plant.initial), so that a move to the start is planned",
+                               i + 1, first.psi_measured[i], desired));
   }
 }
 
@@ -46,7 +48,9 @@ int run(const PeerLine& line) {
   side.begin = [&](const state_t& first) { require_start(first, plan.at(0)); };
   side.refer = [&](std::int64_t k, reference_t& message) {
     fill(plan.at(k), message);
-    message.phase = k < plan.start_tick() ? reference_t::PHASE_MOVE_TO_START : k > plan.ticks() ? reference_t::PHASE_HOLD : reference_t::PHASE_PATH;
+    message.phase = k < plan.start_tick() ? reference_t::PHASE_MOVE_TO_START
+                    : k > plan.ticks()    ? reference_t::PHASE_HOLD
+                                          : reference_t::PHASE_PATH;
   };
   PlannerPeer peer(bus, stop, options, std::move(side));
   return ended("mixloop-planner", peer.run(), peer.report(), stop);
@@ -60,8 +64,10 @@ int main(int argc, char** argv) {
   mixloop::PeerLine line;
   CLI::App app("mixloop-planner: the references of an experiment's path, on the LCM bus.");
   mixloop::add_peer_options(app, line);
-  app.footer("Checks the whole path first (reach, singularities, branches, limits) and refuses it with exit status 2 before anything moves.\n"
-             "Leaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
+  app.footer(
+      "Checks the whole path first (reach, singularities, branches, limits) and refuses it with exit status "
+      "2 before anything moves.\n"
+      "Leaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
   app.callback([&] { status = mixloop::run(line); });
   return mixloop::run_command_line(argc, argv, app, status);
 }

@@ -36,7 +36,8 @@ void fill(Message& message, const Recorder& recorder, std::int64_t k, const Trut
   message.potential_energy = truth.potential_energy;
   message.work = truth.work;
   const auto commanded = recorder.commanded(k), applied = recorder.applied(k);
-  message.flags = std::equal(commanded.begin(), commanded.end(), applied.begin()) ? 0 : truth_t::FLAG_SATURATED;
+  message.flags =
+      std::equal(commanded.begin(), commanded.end(), applied.begin()) ? 0 : truth_t::FLAG_SATURATED;
 }
 
 /// One run of the plant on the bus.
@@ -55,7 +56,8 @@ class PlantProcess {
   }
 
   int run() {
-    if (!recorder_.state(0, plant_.psi(), plant_.psid(), plant_.work())) throw RunFault("diverged", "the start is already farther from the path than limits.position_error");
+    if (!recorder_.state(0, plant_.psi(), plant_.psid(), plant_.work()))
+      throw RunFault("diverged", "the start is already farther from the path than limits.position_error");
     Bus bus(options_.bus);
     LockstepPlant lockstep(bus, stop_, lockstep_options(), side());
     lockstep_ = &lockstep;
@@ -102,7 +104,8 @@ class PlantProcess {
     if (k == plan_.ticks()) {
       if (!options_.hold) return true;
       finish(nullptr);
-      if (options_.report_fd < 0) fmt::print(stderr, "mixloop-plant: holding the end point; Ctrl-C ends it\n");
+      if (options_.report_fd < 0)
+        fmt::print(stderr, "mixloop-plant: holding the end point; Ctrl-C ends it\n");
     }
     plant_.advance();
     return recorder_.state(k + 1, plant_.psi(), plant_.psid(), plant_.work());
@@ -160,14 +163,21 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   int status = 0;
   mixloop::Options options;
-  CLI::App app("mixloop-plant: the simulated hardware of an experiment, on the LCM bus. It owns the clock: tick k is plant time k / rate.");
+  CLI::App app(
+      "mixloop-plant: the simulated hardware of an experiment, on the LCM bus. It owns the clock: tick k is "
+      "plant time k / rate.");
   mixloop::add_peer_options(app, options);
-  app.add_option("--speed", options.speed, "plant seconds a real second, or max (the default): as fast as it goes")->type_name("X");
+  app.add_option("--speed", options.speed,
+                 "plant seconds a real second, or max (the default): as fast as it goes")
+      ->type_name("X");
   app.add_flag("--truth", options.truth, "publish TRUTH, which no controller may read");
-  app.add_option("--out", options.out, "keep result.json and trajectory.csv in this folder")->type_name("DIR");
+  app.add_option("--out", options.out, "keep result.json and trajectory.csv in this folder")
+      ->type_name("DIR");
   app.add_option("--report-fd", options.report_fd, "tell `mixloop run` over this file descriptor")->group("");
-  app.footer("Publishes STATE, waits for COMMAND; start mixloop-controller and mixloop-planner on the same experiment, in any order.\n"
-             "Exit status: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time, 130 interrupted.");
+  app.footer(
+      "Publishes STATE, waits for COMMAND; start mixloop-controller and mixloop-planner on the same "
+      "experiment, in any order.\n"
+      "Exit status: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time, 130 interrupted.");
   app.callback([&] { status = mixloop::PlantProcess(options).run(); });
   return mixloop::run_command_line(argc, argv, app, status);
 }

@@ -33,7 +33,8 @@ void Plant::command(std::span<const double> tau) {
 }
 
 void Plant::advance() {
-  const std::size_t slot = (static_cast<std::size_t>(tick_) + commands_.size() - delay_ticks_) % commands_.size();
+  const std::size_t slot =
+      (static_cast<std::size_t>(tick_) + commands_.size() - delay_ticks_) % commands_.size();
   const double tick_length = 1.0 / rate_hz_;
   if (delay_rest_ > 0) integrate_held(time(), delay_rest_);
   saturate(span_of(std::as_const(commands_[slot])));
@@ -41,7 +42,9 @@ void Plant::advance() {
   ++tick_;
 }
 
-void Plant::acceleration(std::span<double> psidd) { dynamics_.forward_dynamics(psi(), psid(), applied(), time(), psidd); }
+void Plant::acceleration(std::span<double> psidd) {
+  dynamics_.forward_dynamics(psi(), psid(), applied(), time(), psidd);
+}
 
 void Plant::saturate(std::span<const double> tau) {
   for (std::size_t i = 0; i < n_; ++i) {

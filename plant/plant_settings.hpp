@@ -10,17 +10,19 @@
 namespace mixloop {
 
 struct PlantSettings {
-  bool continuous = false;           ///< control evaluated at every stage of the integrator, else held over the tick
-  int substeps = 1;                  ///< RK4 steps in a tick (in each part of it, where a command delay splits it)
-  double command_delay = 0;          ///< s: COMMAND(k) acts from t_k + command_delay on
+  bool continuous = false;   ///< control evaluated at every stage of the integrator, else held over the tick
+  int substeps = 1;          ///< RK4 steps in a tick (in each part of it, where a command delay splits it)
+  double command_delay = 0;  ///< s: COMMAND(k) acts from t_k + command_delay on
   std::vector<double> torque_limit;  ///< n, N m or N: what the motors can give; empty: no limit
   std::vector<double> initial_psi;   ///< n, rad or m: where it stands at first; empty: at the path's start
 };
 
-/// Reads `{integrator, control, substeps, command_delay, torque_limit, initial}`; `parameters` belongs to the experiment.
+/// Reads `{integrator, control, substeps, command_delay, torque_limit, initial}`; `parameters` belongs to the
+/// experiment.
 PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene);
 
 /// One value a motor, an angle (or torque) for rotary motors and a length (force) for linear ones.
-std::vector<double> read_motor_values(const NodePtr& node, const Scene& scene, const Dimension& rotary, const Dimension& linear, const char* what);
+std::vector<double> read_motor_values(const NodePtr& node, const Scene& scene, const Dimension& rotary,
+                                      const Dimension& linear, const char* what);
 
 }  // namespace mixloop

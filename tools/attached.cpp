@@ -13,7 +13,12 @@ namespace {
 class Listener {
  public:
   Listener(const Experiment& experiment, const Plan& plan, Bus& bus)
-      : plan_(plan), recorder_(experiment, plan), config_(config_of(experiment)), states_(experiment.scene->n()), commands_(experiment.scene->n()), controls_(experiment.scene->n()) {
+      : plan_(plan),
+        recorder_(experiment, plan),
+        config_(config_of(experiment)),
+        states_(experiment.scene->n()),
+        commands_(experiment.scene->n()),
+        controls_(experiment.scene->n()) {
     bus.subscribe<&Listener::on_state>(bus.channel("STATE"), this);
     bus.subscribe<&Listener::on_command>(bus.channel("COMMAND"), this);
     bus.subscribe<&Listener::on_control>(bus.channel("SIM_CONTROL"), this);
@@ -51,12 +56,14 @@ class Listener {
     if (command.session != session_ || command.seq != latest_ || latest_ <= latest_complete_) return;
     latest_complete_ = latest_;
     ++complete_;
-    over_ = over_ || !recorder_.command(latest_, command.tau_commanded, command.tau_commanded) || latest_ == plan_.ticks();
+    over_ = over_ || !recorder_.command(latest_, command.tau_commanded, command.tau_commanded) ||
+            latest_ == plan_.ticks();
   }
 
   void on_control(Bytes bytes) {
     if (controls_.read(bytes)) return;
-    over_ = over_ || (controls_.message.session == session_ && controls_.message.action == sim_control_t::ACTION_END);
+    over_ = over_ ||
+            (controls_.message.session == session_ && controls_.message.action == sim_control_t::ACTION_END);
   }
 
   const Plan& plan_;
@@ -71,7 +78,8 @@ class Listener {
 
 }  // namespace
 
-nlohmann::json attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience, const StopSwitch& stop) {
+nlohmann::json attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
+                        const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
   Bus bus(options);
   Listener listener(experiment, plan, bus);
@@ -82,8 +90,11 @@ nlohmann::json attached(const Experiment& experiment, const BusOptions& options,
     bus.wait(now() + std::chrono::milliseconds(100), stop);
     if (listener.latest() != before) news = now();
     if (now() - news > patience)
-      throw RunFault("lost_peer", std::string(listener.heard() ? "the plant fell silent on " : "no plant of this experiment is heard on ") + bus.channel("STATE") +
-                                      "; start mixloop-plant, -controller and -planner with the same experiment, in the same network namespace");
+      throw RunFault("lost_peer", std::string(listener.heard() ? "the plant fell silent on "
+                                                               : "no plant of this experiment is heard on ") +
+                                      bus.channel("STATE") +
+                                      "; start mixloop-plant, -controller and -planner with the same "
+                                      "experiment, in the same network namespace");
   }
   return listener.result(experiment, stop.turned(), std::chrono::duration<double>(now() - start).count());
 }

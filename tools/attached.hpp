@@ -9,8 +9,9 @@
 namespace mixloop {
 
 /// Judges a run of processes that somebody else started, by what their STATEs and COMMANDs say: the same
-/// measures, but of what was heard (`missing_ticks` says how much was not; then there is no trajectory_sha256).
-/// Throws RunFault("lost_peer") when no plant is heard for `patience`.
-nlohmann::json attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience, const StopSwitch& stop);
+/// measures, but of what was heard (`missing_ticks` says how much was not; then there is no
+/// trajectory_sha256). Throws RunFault("lost_peer") when no plant is heard for `patience`.
+nlohmann::json attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
+                        const StopSwitch& stop);
 
 }  // namespace mixloop

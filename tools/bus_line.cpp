@@ -7,32 +7,48 @@ namespace mixloop {
 
 void add_bus_options(CLI::App& command, BusOptions& options) {
   if (const char* url = std::getenv("LCM_DEFAULT_URL"); url && *url) options.url = url;
-  command.add_option("--lcm-url", options.url, "where the bus is; LCM_DEFAULT_URL, else " + options.url)->type_name("URL");
-  command.add_option("--channel-prefix", options.prefix, "of every channel's name, " + options.prefix)->type_name("PREFIX");
+  command.add_option("--lcm-url", options.url, "where the bus is; LCM_DEFAULT_URL, else " + options.url)
+      ->type_name("URL");
+  command.add_option("--channel-prefix", options.prefix, "of every channel's name, " + options.prefix)
+      ->type_name("PREFIX");
 }
 
 Experiment PeerLine::load() const {
   Experiment loaded = load_experiment(std::filesystem::path(experiment), overrides());
   loaded.evaluation = evaluation;
   if (loaded.plant.continuous)
-    throw InputError("out_of_range", {experiment}, "plant.control is 'continuous': over the bus a torque is held from tick to tick; expected 'held' (mixloop simulate runs both)");
+    throw InputError("out_of_range", {experiment},
+                     "plant.control is 'continuous': over the bus a torque is held from tick to tick; "
+                     "expected 'held' (mixloop simulate runs both)");
   return loaded;
 }
 
 void add_peer_options(CLI::App& command, PeerLine& line) {
-  command.add_option("experiment", line.experiment, "the experiment file, the same for all three processes")->required()->type_name("EXPERIMENT");
+  command.add_option("experiment", line.experiment, "the experiment file, the same for all three processes")
+      ->required()
+      ->type_name("EXPERIMENT");
   add_common_options(command, line);
   add_bus_options(command, line.bus);
-  command.add_option("--session", line.session, "the run's id; 0: the plant draws one, the others take the first that they hear")->type_name("ID");
-  command.add_option("--patience", line.patience, "seconds without an answer after which a peer is lost, 10")->type_name("S")->check(CLI::Range(0.05, 3600.0));
-  command.add_option("--first-wait", line.first_wait, "seconds to wait for the others at the start, 60")->type_name("S")->check(CLI::Range(0.05, 86400.0));
+  command
+      .add_option("--session", line.session,
+                  "the run's id; 0: the plant draws one, the others take the first that they hear")
+      ->type_name("ID");
+  command.add_option("--patience", line.patience, "seconds without an answer after which a peer is lost, 10")
+      ->type_name("S")
+      ->check(CLI::Range(0.05, 3600.0));
+  command.add_option("--first-wait", line.first_wait, "seconds to wait for the others at the start, 60")
+      ->type_name("S")
+      ->check(CLI::Range(0.05, 86400.0));
   command.add_flag("--hold", line.hold, "go on holding the end point until stopped");
   add_evaluation_option(command, line.evaluation);
 }
 
 std::int64_t config_of(const Experiment& experiment) {
   const CommonGround ground = common_ground(experiment);
-  return pack({.rate = hash16(ground.rate), .mechanism = hash16(ground.mechanism), .path = hash16(ground.path), .parameters = hash16(ground.parameters)});
+  return pack({.rate = hash16(ground.rate),
+               .mechanism = hash16(ground.mechanism),
+               .path = hash16(ground.path),
+               .parameters = hash16(ground.parameters)});
 }
 
 }  // namespace mixloop

@@ -41,9 +41,11 @@ constexpr std::size_t kLastLines = 6;
 
 }  // namespace
 
-Child::Child(std::string name, const std::vector<std::string>& command, int inherited) : name_(std::move(name)) {
+Child::Child(std::string name, const std::vector<std::string>& command, int inherited)
+    : name_(std::move(name)) {
   int pipe_ends[2];
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw RunFault("cannot_start", "no pipe for " + name_ + ": " + std::strerror(errno));
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0)
+    throw RunFault("cannot_start", "no pipe for " + name_ + ": " + std::strerror(errno));
   std::vector<char*> arguments;
   for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);

@@ -11,7 +11,8 @@
 namespace mixloop {
 namespace {
 
-int report(bool json, const char* program, const std::string& code, const std::string& message, const Place& place, int status) {
+int report(bool json, const char* program, const std::string& code, const std::string& message,
+           const Place& place, int status) {
   const std::string where = to_string(place);
   if (json)
     print_json({{"error", {{"code", code}, {"message", message}, {"where", where}}}});
@@ -53,18 +54,24 @@ std::vector<Override> CommonOptions::overrides() const {
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
-  command.add_option("--set", options.sets, "override an entry, key=value; a scene's own by scene.KEY; may be repeated")
+  command
+      .add_option("--set", options.sets,
+                  "override an entry, key=value; a scene's own by scene.KEY; may be repeated")
       ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_flag("--json", options.json, "print one JSON object on stdout and nothing else, errors included");
+  command.add_flag("--json", options.json,
+                   "print one JSON object on stdout and nothing else, errors included");
 }
 
 void add_evaluation_option(CLI::App& command, Evaluation& evaluation) {
-  static const std::map<std::string, Evaluation> kWays = {
-      {"reference", Evaluation::reference}, {"interpreter", Evaluation::interpreter}, {"machine_code", Evaluation::machine_code}};
-  command.add_option("--evaluation", evaluation, "of the equations of motion: machine_code (default), interpreter or reference")
+  static const std::map<std::string, Evaluation> kWays = {{"reference", Evaluation::reference},
+                                                          {"interpreter", Evaluation::interpreter},
+                                                          {"machine_code", Evaluation::machine_code}};
+  command
+      .add_option("--evaluation", evaluation,
+                  "of the equations of motion: machine_code (default), interpreter or reference")
       ->transform(CLI::CheckedTransformer(kWays))
       ->type_name("HOW");
 }

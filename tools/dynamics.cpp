@@ -43,7 +43,9 @@ nlohmann::json evaluated(const Options& options, const std::shared_ptr<const Sce
   const auto model = make_model<double>(scene, std::span<const double>(parameters));
   Workspace<double> ws(model);
   using In = std::span<const double>;
-  const auto psi = state_values(options.psi, "--psi", *scene), psid = state_values(options.psid, "--psid", *scene), tau = state_values(options.tau, "--tau", *scene);
+  const auto psi = state_values(options.psi, "--psi", *scene),
+             psid = state_values(options.psid, "--psid", *scene),
+             tau = state_values(options.tau, "--tau", *scene);
   const double t = number_of(*parse_document(options.t, "--t"), kTime, "--t");
 
   nlohmann::json json;
@@ -54,7 +56,10 @@ nlohmann::json evaluated(const Options& options, const std::shared_ptr<const Sce
   json["q"] = list(ws.q);
   json["constraint_jacobian"] = rows(ws.C);
   const auto& hand = end_effector<double>(model, In(psi), In(psid), span_of(psidd), t, ws);
-  json["end_effector"] = {{"position", list(hand.position)}, {"velocity", list(hand.velocity)}, {"acceleration", list(hand.acceleration)}, {"jacobian", rows(hand.jacobian)}};
+  json["end_effector"] = {{"position", list(hand.position)},
+                          {"velocity", list(hand.velocity)},
+                          {"acceleration", list(hand.acceleration)},
+                          {"jacobian", rows(hand.jacobian)}};
   return json;
 }
 
@@ -86,17 +91,22 @@ int run(const Options& options) {
 
 void add_dynamics_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand("dynamics", "one evaluation of a scene's equations of motion, M psi'' + h = tau");
+  auto* command =
+      app.add_subcommand("dynamics", "one evaluation of a scene's equations of motion, M psi'' + h = tau");
   command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
-  command->add_option("--psi", options->psi, "motor positions, e.g. 1,2,3 or '57 deg, 0, 0'; zero when omitted")->type_name("A,B,...");
+  command
+      ->add_option("--psi", options->psi, "motor positions, e.g. 1,2,3 or '57 deg, 0, 0'; zero when omitted")
+      ->type_name("A,B,...");
   command->add_option("--psid", options->psid, "motor velocities, rad/s or m/s")->type_name("A,B,...");
   command->add_option("--tau", options->tau, "motor torques or forces, N m or N")->type_name("A,B,...");
-  command->add_option("--t", options->t, "time, s, for constraints and loads that depend on it")->type_name("TIME");
+  command->add_option("--t", options->t, "time, s, for constraints and loads that depend on it")
+      ->type_name("TIME");
   add_common_options(*command, *options);
   command->footer(
       "Prints Q, C, M, h, psi'' and the end effector in SI, matrices row by row.\n"
       "Example:\n"
-      "  mixloop dynamics scenes/mixed_loop_robot.yaml --psi 1,2,3 --psid 0.1,0.2,0.3 --set parameters.payload='3 kg'");
+      "  mixloop dynamics scenes/mixed_loop_robot.yaml --psi 1,2,3 --psid 0.1,0.2,0.3 --set "
+      "parameters.payload='3 kg'");
   command->callback([options, &status] { status = run(*options); });
 }
 

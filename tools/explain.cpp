@@ -15,7 +15,7 @@ struct Options : CommonOptions {
 };
 
 nlohmann::json counts(const OperationCount& count) {
-  return {{"add", count.add}, {"mul", count.mul}, {"div", count.div}, {"sqrt", count.sqrt},
+  return {{"add", count.add},       {"mul", count.mul},     {"div", count.div},      {"sqrt", count.sqrt},
           {"sincos", count.sincos}, {"other", count.other}, {"flops", count.flops()}};
 }
 
@@ -33,12 +33,17 @@ nlohmann::json as_json(const Explanation& explanation) {
 void print_table(const Explanation& explanation) {
   fmt::print("{:<26}{:>18}{:>18}{:>8}   {}\n", "operations + sincos", "literal", "pruned", "", "traced");
   for (const auto& quantity : explanation.quantities) {
-    const auto text = [](const OperationCount& count) { return fmt::format("{} + {}", count.flops(), count.sincos); };
-    fmt::print("{:<26}{:>18}{:>18}{:>7.1f}x   {}\n", name_of(quantity.purpose), text(quantity.literal), text(quantity.run),
-               static_cast<double>(quantity.literal.flops()) / static_cast<double>(std::max<std::size_t>(1, quantity.run.flops())),
+    const auto text = [](const OperationCount& count) {
+      return fmt::format("{} + {}", count.flops(), count.sincos);
+    };
+    fmt::print("{:<26}{:>18}{:>18}{:>7.1f}x   {}\n", name_of(quantity.purpose), text(quantity.literal),
+               text(quantity.run),
+               static_cast<double>(quantity.literal.flops()) /
+                   static_cast<double>(std::max<std::size_t>(1, quantity.run.flops())),
                name_of(quantity.tracing));
   }
-  fmt::print("\nForward dynamics: {}\n  instead of {}.\n\nWhy:\n", explanation.quantities[0].run.text(), explanation.quantities[0].literal.text());
+  fmt::print("\nForward dynamics: {}\n  instead of {}.\n\nWhy:\n", explanation.quantities[0].run.text(),
+             explanation.quantities[0].literal.text());
   for (const auto& reason : explanation.reasons) fmt::print("- {}\n", reason);
 }
 

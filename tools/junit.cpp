@@ -28,14 +28,16 @@ void write_junit(const std::string& file, const nlohmann::json& results) {
       ++failures;
       auto* element = test->InsertNewChildElement("failure");
       std::string message;
-      for (const auto& line : result.value("missed", nlohmann::json::array())) message += (message.empty() ? "" : "; ") + line.get<std::string>();
+      for (const auto& line : result.value("missed", nlohmann::json::array()))
+        message += (message.empty() ? "" : "; ") + line.get<std::string>();
       element->SetAttribute("message", message.c_str());
     }
   }
   suite->SetAttribute("tests", static_cast<int>(results.size()));
   suite->SetAttribute("failures", failures);
   suite->SetAttribute("errors", errors);
-  if (document.SaveFile(file.c_str()) != tinyxml2::XML_SUCCESS) throw RunFault("cannot_write", "cannot write " + file);
+  if (document.SaveFile(file.c_str()) != tinyxml2::XML_SUCCESS)
+    throw RunFault("cannot_write", "cannot write " + file);
 }
 
 }  // namespace mixloop

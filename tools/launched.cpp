@@ -31,16 +31,19 @@ constexpr auto kGrace = 3s;
 /// A run of the processes: their pipes, their ends, and what the plant reports.
 class Run {
  public:
-  Run(const Experiment& experiment, const Launch& launch, const StopSwitch& stop, const std::function<void(const nlohmann::json&)>& at_end, std::int64_t ticks)
+  Run(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
+      const std::function<void(const nlohmann::json&)>& at_end, std::int64_t ticks)
       : launch_(launch), stop_(stop), at_end_(at_end), progress_(experiment.name, ticks, experiment.rate_hz) {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw RunFault("cannot_start", std::string("no pipe: ") + std::strerror(errno));
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw RunFault("cannot_start", std::string("no pipe: ") + std::strerror(errno));
     report_ = ends[0];
     fcntl(report_, F_SETFL, O_NONBLOCK);
     const std::int64_t session = draw_session();
     children_.reserve(launch.order.size());
     for (const auto& name : launch.order)
-      if (!absent(name)) children_.emplace_back(name, command(name, session, ends[1]), name == "plant" ? ends[1] : -1);
+      if (!absent(name))
+        children_.emplace_back(name, command(name, session, ends[1]), name == "plant" ? ends[1] : -1);
     close(ends[1]);
   }
   ~Run() { close(report_); }
@@ -48,7 +51,8 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   nlohmann::json wait() {
-    while (std::any_of(children_.begin(), children_.end(), [](const Child& child) { return child.running(); })) {
+    while (
+        std::any_of(children_.begin(), children_.end(), [](const Child& child) { return child.running(); })) {
       wait_for_news();
       read_report();
       for (auto& child : children_) hear(child);
@@ -61,14 +65,26 @@ class Run {
   }
 
  private:
-  bool absent(const std::string& name) const { return std::find(launch_.without.begin(), launch_.without.end(), name) != launch_.without.end(); }
+  bool absent(const std::string& name) const {
+    return std::find(launch_.without.begin(), launch_.without.end(), name) != launch_.without.end();
+  }
 
   std::vector<std::string> command(const std::string& name, std::int64_t session, int report) const {
-    std::vector<std::string> words = {own_folder() + "/mixloop-" + name, launch_.experiment, "--session", std::to_string(session), "--lcm-url", launch_.bus.url,
-                                      "--channel-prefix", launch_.bus.prefix, "--patience", fmt::format("{}", launch_.patience),
-                                      "--evaluation", std::string(name_of(launch_.evaluation))};
+    std::vector<std::string> words = {own_folder() + "/mixloop-" + name,
+                                      launch_.experiment,
+                                      "--session",
+                                      std::to_string(session),
+                                      "--lcm-url",
+                                      launch_.bus.url,
+                                      "--channel-prefix",
+                                      launch_.bus.prefix,
+                                      "--patience",
+                                      fmt::format("{}", launch_.patience),
+                                      "--evaluation",
+                                      std::string(name_of(launch_.evaluation))};
     // A stranger may take its time; our own processes are there within the patience.
-    if (launch_.without.empty()) words.insert(words.end(), {"--first-wait", fmt::format("{}", std::max(launch_.patience, 10.0))});
+    if (launch_.without.empty())
+      words.insert(words.end(), {"--first-wait", fmt::format("{}", std::max(launch_.patience, 10.0))});
     for (const auto& set : launch_.sets) words.insert(words.end(), {"--set", set});
     if (launch_.hold) words.emplace_back("--hold");
     if (name != "plant") return words;
@@ -118,7 +134,8 @@ class Run {
     if (!deadline_) deadline_ = now() + kGrace;
     // Peers leave after the plant; one that leaves before it, or by a signal, takes the others along.
     const bool early = child.name() != "plant" && !stopping_ && !result_;
-    const bool failed = child.killed_by() != 0 || (early && child.exit_status() != 0 && child.exit_status() != kInterrupted);
+    const bool failed =
+        child.killed_by() != 0 || (early && child.exit_status() != 0 && child.exit_status() != kInterrupted);
     if (failed && !first_failure_) first_failure_ = &child;
     if (child.killed_by() != 0 || early) order_stop(child.killed_by() != 0 ? SIGTERM : 0);
   }
@@ -158,16 +175,22 @@ class Run {
     for (const auto& child : children_)
       if (child.name() == "plant" && !result_) throw_failure(child);
     for (const auto& child : children_)
-      if (child.name() == "plant" && child.exit_status() == kRunFault && !result_->contains("diverged_at")) throw_failure(child);
-    if (!result_) return {{"verdict", stopped_ ? "interrupted" : "held"}, {"exit_status", stopped_ ? kInterrupted : kHeld}};
+      if (child.name() == "plant" && child.exit_status() == kRunFault && !result_->contains("diverged_at"))
+        throw_failure(child);
+    if (!result_)
+      return {{"verdict", stopped_ ? "interrupted" : "held"},
+              {"exit_status", stopped_ ? kInterrupted : kHeld}};
     return *result_;
   }
 
   [[noreturn]] static void throw_failure(const Child& child) {
     const std::string words = child.last_words();
-    const std::string how = child.killed_by() != 0 ? fmt::format("was killed by signal {} ({})", child.killed_by(), strsignal(child.killed_by()))
-                                                   : fmt::format("ended with status {}", child.exit_status());
-    throw RunFault("process_failed", fmt::format("mixloop-{} {}{}{}", child.name(), how, words.empty() ? "" : "; its last words: ", words));
+    const std::string how =
+        child.killed_by() != 0
+            ? fmt::format("was killed by signal {} ({})", child.killed_by(), strsignal(child.killed_by()))
+            : fmt::format("ended with status {}", child.exit_status());
+    throw RunFault("process_failed", fmt::format("mixloop-{} {}{}{}", child.name(), how,
+                                                 words.empty() ? "" : "; its last words: ", words));
   }
 
   const Launch& launch_;
@@ -180,7 +203,7 @@ class Run {
   std::string reported_;
   std::optional<nlohmann::json> result_;
   const Child* first_failure_ = nullptr;
-  bool stopped_ = false;     ///< by the user
+  bool stopped_ = false;  ///< by the user
   bool stopping_ = false;
   bool terminated_ = false;
   std::optional<Instant> deadline_;
@@ -188,10 +211,13 @@ class Run {
 
 }  // namespace
 
-nlohmann::json launched(const Experiment& experiment, const Launch& launch, const StopSwitch& stop, const std::function<void(const nlohmann::json&)>& at_end) {
+nlohmann::json launched(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
+                        const std::function<void(const nlohmann::json&)>& at_end) {
   // Everything that can be refused is refused here, before a process is started.
   if (experiment.plant.continuous)
-    throw InputError("out_of_range", {launch.experiment}, "plant.control is 'continuous': over the bus a torque is held from tick to tick; expected 'held' (mixloop simulate runs both)");
+    throw InputError("out_of_range", {launch.experiment},
+                     "plant.control is 'continuous': over the bus a torque is held from tick to tick; "
+                     "expected 'held' (mixloop simulate runs both)");
   const Plan plan = make_plan(experiment);
   require_multicast_route(multicast_group(launch.bus.url));
   if (!launch.out.empty()) prepare_folder(launch.out);
@@ -204,7 +230,8 @@ nlohmann::json launched(const Experiment& experiment, const Launch& launch, cons
   nlohmann::json result = run.wait();
   if (log) {
     const LogSummary summary = log->finish();
-    result["log"] = {{"file", "run.lcmlog"}, {"events", summary.events}, {"missing_ticks", summary.missing_ticks}};
+    result["log"] = {
+        {"file", "run.lcmlog"}, {"events", summary.events}, {"missing_ticks", summary.missing_ticks}};
   }
   return result;
 }

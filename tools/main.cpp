@@ -4,11 +4,14 @@
 
 int main(int argc, char** argv) {
   int status = 0;
-  CLI::App app("mixloop: equations of motion of geared, loop-constrained mechanisms, run as a plant and a controller over LCM.");
+  CLI::App app(
+      "mixloop: equations of motion of geared, loop-constrained mechanisms, run as a plant and a controller "
+      "over LCM.");
   app.set_version_flag("--version", MIXLOOP_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time (divergence, a lost peer), 130 interrupted.\n"
+      "Exit status: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time (divergence, a lost peer), "
+      "130 interrupted.\n"
       "Each command has its own --help, e.g. mixloop simulate --help.");
   mixloop::add_simulate_command(app, status);
   mixloop::add_run_command(app, status);

@@ -19,7 +19,8 @@ PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std
 int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop) {
   if (report.joined_late) fmt::print(stderr, "{}: joined late, at a tick past 0\n", program);
   if (ending != Ending::finished)
-    fmt::print(stderr, "{}: {} after {} ticks ({} answered again, {} messages dropped)\n", program, name(ending), report.answered, report.repeated, report.rejects.total());
+    fmt::print(stderr, "{}: {} after {} ticks ({} answered again, {} messages dropped)\n", program,
+               name(ending), report.answered, report.repeated, report.rejects.total());
   if (ending == Ending::broken_off) return kHeld;  // the plant's fault, which it reports
   return stop.turned() ? kInterrupted : kHeld;
 }

@@ -23,7 +23,8 @@ void Progress::at(std::int64_t tick) {
   next_ = now + std::chrono::milliseconds(200);
   drawn_ = true;
   const double part = ticks_ > 0 ? static_cast<double>(tick) / static_cast<double>(ticks_) : 1;
-  fmt::print(stderr, "\r{}: {:.3f} of {:.3f} s ({:.0f} %)\033[K", name_, static_cast<double>(tick) / rate_hz_, static_cast<double>(ticks_) / rate_hz_, 100 * part);
+  fmt::print(stderr, "\r{}: {:.3f} of {:.3f} s ({:.0f} %)\033[K", name_, static_cast<double>(tick) / rate_hz_,
+             static_cast<double>(ticks_) / rate_hz_, 100 * part);
   std::fflush(stderr);
 }
 

@@ -8,8 +8,8 @@
 
 namespace mixloop {
 
-/// What a plant that was launched by `mixloop run` tells it over a pipe, a JSON object a line: {"tick": k} now
-/// and then, {"result": {...}} once. Without a pipe nothing is said.
+/// What a plant that was launched by `mixloop run` tells it over a pipe, a JSON object a line: {"tick": k}
+/// now and then, {"result": {...}} once. Without a pipe nothing is said.
 class ReportLine {
  public:
   explicit ReportLine(int fd) : fd_(fd) {}

@@ -21,8 +21,9 @@ struct Options : CommonOptions {
 
 void print_bus(const nlohmann::json& result) {
   if (!result.contains("round_trip_p50")) return;
-  fmt::print("  round trip       p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; {} states sent again\n", result["round_trip_p50"].get<double>() * 1e6,
-             result["round_trip_p99"].get<double>() * 1e6, result["round_trip_max"].get<double>() * 1e6, result["resent"].get<std::int64_t>());
+  fmt::print("  round trip       p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; {} states sent again\n",
+             result["round_trip_p50"].get<double>() * 1e6, result["round_trip_p99"].get<double>() * 1e6,
+             result["round_trip_max"].get<double>() * 1e6, result["resent"].get<std::int64_t>());
 }
 
 int run(Options& options) {
@@ -46,12 +47,16 @@ int run(Options& options) {
     if (!launch.hold || options.json || result.contains("interrupted_at")) return;
     print(result);
     printed = true;
-    fmt::print("\nHolding the end point; Ctrl-C ends it. To look on from another terminal, join this network namespace:\n"
-               "  nsenter --preserve-credentials --user --net --target {}\n", getpid());
+    fmt::print(
+        "\nHolding the end point; Ctrl-C ends it. To look on from another terminal, join this network "
+        "namespace:\n"
+        "  nsenter --preserve-credentials --user --net --target {}\n",
+        getpid());
     std::fflush(stdout);
   };
   const nlohmann::json result = launched(experiment, launch, stop, at_end);
-  if (!launch.out.empty()) std::ofstream(std::filesystem::path(launch.out) / "result.json") << result.dump(2) << '\n';
+  if (!launch.out.empty())
+    std::ofstream(std::filesystem::path(launch.out) / "result.json") << result.dump(2) << '\n';
   if (options.json)
     print_json(result);
   else if (!printed)
@@ -65,22 +70,36 @@ void add_run_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   Launch& launch = options->launch;
   auto* command = app.add_subcommand("run", "the three processes over LCM: launches them, waits, summarises");
-  command->add_option("experiment", launch.experiment, "the experiment file")->required()->type_name("EXPERIMENT");
+  command->add_option("experiment", launch.experiment, "the experiment file")
+      ->required()
+      ->type_name("EXPERIMENT");
   add_common_options(*command, *options);
   add_bus_options(*command, launch.bus);
   command->add_flag("--lockstep", options->lockstep, "plant time waits for every command (the default)");
-  command->add_option("--speed", launch.speed, "plant seconds a real second, or max (the default): as fast as it goes")->type_name("X");
+  command
+      ->add_option("--speed", launch.speed,
+                   "plant seconds a real second, or max (the default): as fast as it goes")
+      ->type_name("X");
   command->add_flag("--hold", launch.hold, "go on holding the end point until Ctrl-C");
   command->add_flag("--truth", launch.truth, "publish TRUTH, which no controller may read");
-  command->add_option("--without", launch.without, "do not launch this one: a stranger's is used")->check(CLI::IsMember({"plant", "controller", "planner"}))->type_name("PROCESS");
-  command->add_option("--order", launch.order, "in which order they are launched")->delimiter(',')->type_name("A,B,C");
-  command->add_option("--out", launch.out, "keep result.json, trajectory.csv and the LCM log in this folder")->type_name("DIR");
-  command->add_option("--patience", launch.patience, "seconds without an answer after which a peer is lost, 10")->type_name("S")->check(CLI::Range(0.05, 3600.0));
+  command->add_option("--without", launch.without, "do not launch this one: a stranger's is used")
+      ->check(CLI::IsMember({"plant", "controller", "planner"}))
+      ->type_name("PROCESS");
+  command->add_option("--order", launch.order, "in which order they are launched")
+      ->delimiter(',')
+      ->type_name("A,B,C");
+  command->add_option("--out", launch.out, "keep result.json, trajectory.csv and the LCM log in this folder")
+      ->type_name("DIR");
+  command
+      ->add_option("--patience", launch.patience, "seconds without an answer after which a peer is lost, 10")
+      ->type_name("S")
+      ->check(CLI::Range(0.05, 3600.0));
   add_evaluation_option(*command, launch.evaluation);
   command->footer(
       "LCM needs a multicast route; tools/in-namespace gives a command a network of its own that has one.\n"
       "Examples:\n"
-      "  tools/in-namespace build/release/bin/mixloop run experiments/paper.yaml --speed 1 --out results/paper\n"
+      "  tools/in-namespace build/release/bin/mixloop run experiments/paper.yaml --speed 1 --out "
+      "results/paper\n"
       "  mixloop run experiments/paper.yaml --without controller     # waits for yours");
   command->callback([options, &status] { status = run(*options); });
 }

@@ -47,7 +47,8 @@ int run(const Options& options) {
   if (options.json)
     print_json(result);
   else
-    fmt::print("{}{}", summary(experiment, result), options.out.empty() ? "" : "  kept in " + options.out + "\n");
+    fmt::print("{}{}", summary(experiment, result),
+               options.out.empty() ? "" : "  kept in " + options.out + "\n");
   return result.at("exit_status").get<int>();
 }
 
@@ -56,14 +57,18 @@ int run(const Options& options) {
 void add_simulate_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("simulate", "the closed loop in one process, as fast as it goes");
-  command->add_option("experiment", options->experiment, "the experiment file")->required()->type_name("EXPERIMENT");
+  command->add_option("experiment", options->experiment, "the experiment file")
+      ->required()
+      ->type_name("EXPERIMENT");
   add_common_options(*command, *options);
-  command->add_option("--out", options->out, "keep result.json and trajectory.csv in this folder")->type_name("DIR");
+  command->add_option("--out", options->out, "keep result.json and trajectory.csv in this folder")
+      ->type_name("DIR");
   add_evaluation_option(*command, options->evaluation);
   command->footer(
       "Examples:\n"
       "  mixloop simulate experiments/paper.yaml\n"
-      "  mixloop simulate experiments/paper.yaml --set parameters.payload='3 kg' --set scene.gravity='[0, 0, 0]'\n"
+      "  mixloop simulate experiments/paper.yaml --set parameters.payload='3 kg' --set scene.gravity='[0, 0, "
+      "0]'\n"
       "  mixloop simulate experiments/paper_continuous.yaml --json --out results/continuous");
   command->callback([options, &status] { status = run(*options); });
 }

@@ -9,7 +9,8 @@
 
 namespace mixloop {
 
-/// Runs an experiment in this process and gives its result; keeps it in the folder `out` unless that is empty.
+/// Runs an experiment in this process and gives its result; keeps it in the folder `out` unless that is
+/// empty.
 nlohmann::json simulated(const Experiment& experiment, const std::string& out, const StopSwitch& stop);
 
 }  // namespace mixloop

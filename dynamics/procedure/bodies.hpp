@@ -32,7 +32,11 @@ void dynamic_matrix(const Model<T>& model, Workspace<T>& ws) {
 /// (21), last two terms: forces in inertial axes at a point, moments in the frame's axes.
 template <class T>
 void external_loads(const Model<T>& model, const T& t, Workspace<T>& ws) {
-  const auto timed = [&](int symbol) -> T { return symbol == Symbols::kTime ? t : model.parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)]; };
+  const auto timed = [&](int symbol) -> T {
+    return symbol == Symbols::kTime
+               ? t
+               : model.parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)];
+  };
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     const auto& load = model.loads[l];
     const auto& said = model.scene->loads[l];
@@ -63,11 +67,14 @@ void dynamic_vector(const Model<T>& model, const T& t, Workspace<T>& ws) {
     angular_variations<T>(frame, ws.O);
     Vec3<T> rate;  // (20) Phi' = O Q'
     rate.setConstant(T(0));
-    for (std::size_t j = 0; j < path.size(); ++j) rate += ws.O.col(static_cast<Eigen::Index>(j)) * ws.qd[path[j]];
-    const Mat3<T> Omega = detail::skew_of_vector<T>(rate);  // (19)
+    for (std::size_t j = 0; j < path.size(); ++j)
+      rate += ws.O.col(static_cast<Eigen::Index>(j)) * ws.qd[path[j]];
+    const Mat3<T> Omega = detail::skew_of_vector<T>(rate);                // (19)
     const Vec3<T> Ap = at_point<T>(frame.Tdd_bias, body.center_of_mass);  // (16)
-    const Mat3<T> Ao_skew = frame.T_0.template leftCols<3>().transpose().lazyProduct(frame.Tdd_bias.template leftCols<3>()) - Omega.lazyProduct(Omega);
-    const Vec3<T> Ao = detail::vector_of_skew<T>(Ao_skew);  // (18)
+    const Mat3<T> Ao_skew =
+        frame.T_0.template leftCols<3>().transpose().lazyProduct(frame.Tdd_bias.template leftCols<3>()) -
+        Omega.lazyProduct(Omega);
+    const Vec3<T> Ao = detail::vector_of_skew<T>(Ao_skew);   // (18)
     const Vec3<T> force = (Ap - model.gravity) * body.mass;  // (22) less gravity
     const Vec3<T> I_rate = body.inertia.lazyProduct(rate);
     const Vec3<T> moment = body.inertia.lazyProduct(Ao) + Omega.lazyProduct(I_rate);  // (23)

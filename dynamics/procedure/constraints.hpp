@@ -9,7 +9,8 @@ namespace detail {
 
 /// The coordinates along the line (psi + s dpsi, t + s dt), into ws.along.
 template <class T>
-void coordinates_along(const Model<T>& model, std::span<const T> psi, const T* dpsi, const T& t, const T& dt, Workspace<T>& ws) {
+void coordinates_along(const Model<T>& model, std::span<const T> psi, const T* dpsi, const T& t, const T& dt,
+                       Workspace<T>& ws) {
   const Symbols symbols(*model.scene);
   const auto symbol = [&](int number) -> Taylor<T> {
     if (symbols.is_q(number)) return ws.along[static_cast<std::size_t>(number - symbols.q0)];
@@ -21,7 +22,8 @@ void coordinates_along(const Model<T>& model, std::span<const T> psi, const T* d
     return Taylor<T>(model.parameters[static_cast<std::size_t>(number - Symbols::kParameter0)]);
   };
   for (const int j : model.scene->evaluation_order)
-    ws.along[static_cast<std::size_t>(j)] = evaluate<Taylor<T>>(model.scene->coordinates[static_cast<std::size_t>(j)].constraint, symbol);
+    ws.along[static_cast<std::size_t>(j)] =
+        evaluate<Taylor<T>>(model.scene->coordinates[static_cast<std::size_t>(j)].constraint, symbol);
 }
 
 }  // namespace detail
@@ -41,7 +43,8 @@ void coordinates(const Model<T>& model, std::span<const T> psi, const T& t, Work
 /// (2), (4): Q' = C Psi' + F_t and the part of Q'' that Psi'' has no share in,
 /// (sum_k dC/dpsi_k psi'_k) Psi' + 2 F_psi,t Psi' + F_tt, into ws.qd and ws.q_bias (m).
 template <class T>
-void coordinate_rates(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t, Workspace<T>& ws) {
+void coordinate_rates(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t,
+                      Workspace<T>& ws) {
   detail::coordinates_along(model, psi, psid.data(), t, T(1), ws);
   for (int i = 0; i < model.m(); ++i) {
     ws.qd[i] = ws.along[static_cast<std::size_t>(i)].d;

@@ -19,8 +19,8 @@ Mat34<T> transform(const typename Model<T>::Link& link, const Vec<T>& q) {
     s = sin(theta);
   }
   Mat34<T> A;
-  A << c, -(s * link.cos_alpha), s * link.sin_alpha, link.a * c,   //
-      s, c * link.cos_alpha, -(c * link.sin_alpha), link.a * s,    //
+  A << c, -(s * link.cos_alpha), s * link.sin_alpha, link.a * c,  //
+      s, c * link.cos_alpha, -(c * link.sin_alpha), link.a * s,   //
       T(0), link.sin_alpha, link.cos_alpha, d;
   return A;
 }
@@ -88,7 +88,8 @@ void frame_variations(const Model<T>& model, Workspace<T>& ws) {
       const bool inherited = above < parent_path.size() && parent_path[above] == link.path[j];
       if (inherited) frame.V[j] = detail::times_transform<T>(parent.V[above++], A);
       if (link.path[j] != link.coordinate) continue;
-      const Mat34<T> own = detail::times_derivative<T>(parent.T_0, detail::varied<T>(A, link.prismatic)) * link.scale;
+      const Mat34<T> own =
+          detail::times_derivative<T>(parent.T_0, detail::varied<T>(A, link.prismatic)) * link.scale;
       frame.V[j] = inherited ? Mat34<T>(frame.V[j] + own) : own;
     }
   }
@@ -110,7 +111,8 @@ void frame_rates(const Model<T>& model, Workspace<T>& ws) {
     const Mat34<T> BA = detail::varied<T>(A, link.prismatic);
     frame.Td += detail::times_derivative<T>(parent.T_0, BA) * rate;
     frame.Tdd_bias += detail::times_derivative<T>(parent.Td, BA) * (T(2) * rate);
-    if (!link.prismatic) frame.Tdd_bias += detail::times_derivative<T>(parent.T_0, detail::varied_twice<T>(A)) * (rate * rate);
+    if (!link.prismatic)
+      frame.Tdd_bias += detail::times_derivative<T>(parent.T_0, detail::varied_twice<T>(A)) * (rate * rate);
   }
 }
 
@@ -123,7 +125,8 @@ Vec3<T> at_point(const Mat34<T>& X, const Vec3<T>& point) {
 /// (9): the linear displacement variations of a point, column j for coordinate path[j] of the frame.
 template <class T, class Out>
 void linear_variations(const typename Workspace<T>::Frame& frame, const Vec3<T>& point, Out&& D) {
-  for (std::size_t j = 0; j < frame.V.size(); ++j) D.col(static_cast<Eigen::Index>(j)) = at_point<T>(frame.V[j], point);
+  for (std::size_t j = 0; j < frame.V.size(); ++j)
+    D.col(static_cast<Eigen::Index>(j)) = at_point<T>(frame.V[j], point);
 }
 
 /// (10), (11): the angular displacement variations in the frame's own axes.

@@ -17,13 +17,13 @@ struct Model {
   /// A transform whose varying parameter is scale * q + offset.
   struct Link {
     int parent = 0;
-    int coordinate = -1;     ///< -1: fixed
+    int coordinate = -1;  ///< -1: fixed
     bool prismatic = false;
     T scale{1};
-    T theta{0}, s{0}, a{0};  ///< of the varying one, the offset
+    T theta{0}, s{0}, a{0};        ///< of the varying one, the offset
     T cos_theta{1}, sin_theta{0};  ///< where theta doesn't vary
     T cos_alpha{1}, sin_alpha{0};
-    std::vector<int> path;   ///< coordinates that move this frame, ascending
+    std::vector<int> path;  ///< coordinates that move this frame, ascending
   };
   struct Body {
     int frame = 0;
@@ -85,7 +85,9 @@ Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> param
   model.scene = scene;
   model.parameters.assign(parameters.begin(), parameters.end());
   const auto number = [&](const Formula& formula) {
-    return evaluate<T>(formula, [&](int symbol) { return parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)]; });
+    return evaluate<T>(formula, [&](int symbol) {
+      return parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)];
+    });
   };
   const auto vector = [&](const std::array<Formula, 3>& formulas) -> Vec3<T> {
     return Vec3<T>(number(formulas[0]), number(formulas[1]), number(formulas[2]));
@@ -93,7 +95,8 @@ Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> param
   // An affine formula of a coordinate: v = its value at q = 0, d = its slope.
   const auto affine = [&](const Formula& formula, int coordinate) {
     return evaluate<Taylor<T>>(formula, [&](int symbol) {
-      if (symbols.is_parameter(symbol)) return Taylor<T>(parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)]);
+      if (symbols.is_parameter(symbol))
+        return Taylor<T>(parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)]);
       return Taylor<T>(T(0), T(symbol == symbols.q0 + coordinate ? 1 : 0), T(0));
     });
   };
@@ -103,7 +106,8 @@ Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> param
     link.parent = transform.parent;
     link.coordinate = transform.coordinate.value_or(-1);
     link.prismatic = transform.prismatic;
-    const Taylor<T> theta = affine(transform.theta, link.coordinate), s = affine(transform.s, link.coordinate);
+    const Taylor<T> theta = affine(transform.theta, link.coordinate),
+                    s = affine(transform.s, link.coordinate);
     link.theta = theta.v;
     link.s = s.v;
     if (link.coordinate >= 0) link.scale = link.prismatic ? s.d : theta.d;
@@ -114,10 +118,13 @@ Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> param
       sine = sin(angle);
     };
     cos_sin(transform.alpha, number(transform.alpha), link.cos_alpha, link.sin_alpha);
-    if (link.coordinate < 0 || link.prismatic) cos_sin(transform.theta, link.theta, link.cos_theta, link.sin_theta);
+    if (link.coordinate < 0 || link.prismatic)
+      cos_sin(transform.theta, link.theta, link.cos_theta, link.sin_theta);
     link.path = model.path(link.parent);
-    if (link.coordinate >= 0 && std::find(link.path.begin(), link.path.end(), link.coordinate) == link.path.end())
-      link.path.insert(std::upper_bound(link.path.begin(), link.path.end(), link.coordinate), link.coordinate);
+    if (link.coordinate >= 0 &&
+        std::find(link.path.begin(), link.path.end(), link.coordinate) == link.path.end())
+      link.path.insert(std::upper_bound(link.path.begin(), link.path.end(), link.coordinate),
+                       link.coordinate);
     model.links.push_back(std::move(link));
   }
   for (const auto& body : scene->bodies) {

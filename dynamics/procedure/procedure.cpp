@@ -3,11 +3,20 @@
 
 namespace mixloop {
 
-template const Mat<double>& mass_matrix(const Model<double>&, std::span<const double>, const double&, Workspace<double>&);
-template const Vec<double>& bias(const Model<double>&, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
-template const Vec<double>& inverse_dynamics(const Model<double>&, std::span<const double>, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
-template const Vec<double>& forward_dynamics(const Model<double>&, std::span<const double>, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
-template const EndEffectorState<double>& end_effector(const Model<double>&, std::span<const double>, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
-template Energy<double> energy(const Model<double>&, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
+template const Mat<double>& mass_matrix(const Model<double>&, std::span<const double>, const double&,
+                                        Workspace<double>&);
+template const Vec<double>& bias(const Model<double>&, std::span<const double>, std::span<const double>,
+                                 const double&, Workspace<double>&);
+template const Vec<double>& inverse_dynamics(const Model<double>&, std::span<const double>,
+                                             std::span<const double>, std::span<const double>, const double&,
+                                             Workspace<double>&);
+template const Vec<double>& forward_dynamics(const Model<double>&, std::span<const double>,
+                                             std::span<const double>, std::span<const double>, const double&,
+                                             Workspace<double>&);
+template const EndEffectorState<double>& end_effector(const Model<double>&, std::span<const double>,
+                                                      std::span<const double>, std::span<const double>,
+                                                      const double&, Workspace<double>&);
+template Energy<double> energy(const Model<double>&, std::span<const double>, std::span<const double>,
+                               const double&, Workspace<double>&);
 
 }  // namespace mixloop

@@ -29,7 +29,8 @@ void project_bias(const Model<T>& model, Workspace<T>& ws) {
 }
 
 template <class T>
-void assemble(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t, Workspace<T>& ws) {
+void assemble(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t,
+              Workspace<T>& ws) {
   coordinates(model, psi, t, ws);
   coordinate_rates(model, psi, psid, t, ws);
   frame_variations(model, ws);
@@ -53,14 +54,16 @@ const Mat<T>& mass_matrix(const Model<T>& model, std::span<const T> psi, const T
 
 /// (32) with the project's sign: n, N m or N.
 template <class T>
-const Vec<T>& bias(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t, Workspace<T>& ws) {
+const Vec<T>& bias(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t,
+                   Workspace<T>& ws) {
   detail::assemble(model, psi, psid, t, ws);
   return ws.h;
 }
 
 /// (30) for tau: M psi'' + h, n.
 template <class T>
-const Vec<T>& inverse_dynamics(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, std::span<const T> psidd, const T& t, Workspace<T>& ws) {
+const Vec<T>& inverse_dynamics(const Model<T>& model, std::span<const T> psi, std::span<const T> psid,
+                               std::span<const T> psidd, const T& t, Workspace<T>& ws) {
   detail::assemble(model, psi, psid, t, ws);
   detail::project_mass(model, ws);
   ws.out.noalias() = ws.M.lazyProduct(map_of(psidd));
@@ -70,7 +73,8 @@ const Vec<T>& inverse_dynamics(const Model<T>& model, std::span<const T> psi, st
 
 /// (30) for psi'': M^-1 (tau - h), n. Not finite where M is singular.
 template <class T>
-const Vec<T>& forward_dynamics(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, std::span<const T> tau, const T& t, Workspace<T>& ws) {
+const Vec<T>& forward_dynamics(const Model<T>& model, std::span<const T> psi, std::span<const T> psid,
+                               std::span<const T> tau, const T& t, Workspace<T>& ws) {
   detail::assemble(model, psi, psid, t, ws);
   detail::project_mass(model, ws);
   for (int i = 0; i < model.n(); ++i) ws.out[i] = tau[static_cast<std::size_t>(i)] - ws.h[i];
@@ -82,7 +86,9 @@ const Vec<T>& forward_dynamics(const Model<T>& model, std::span<const T> psi, st
 
 /// The end effector's place (5), rate and acceleration (14), and its Jacobian D C.
 template <class T>
-const EndEffectorState<T>& end_effector(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, std::span<const T> psidd, const T& t, Workspace<T>& ws) {
+const EndEffectorState<T>& end_effector(const Model<T>& model, std::span<const T> psi,
+                                        std::span<const T> psid, std::span<const T> psidd, const T& t,
+                                        Workspace<T>& ws) {
   coordinates(model, psi, t, ws);
   coordinate_rates(model, psi, psid, t, ws);
   frame_variations(model, ws);
@@ -101,13 +107,15 @@ const EndEffectorState<T>& end_effector(const Model<T>& model, std::span<const T
     out.acceleration += column * ws.q_bias[path[j]];
     for (int i = 0; i < model.n(); ++i) out.jacobian.col(i) += column * ws.C(path[j], i);
   }
-  for (int i = 0; i < model.n(); ++i) out.acceleration += out.jacobian.col(i) * psidd[static_cast<std::size_t>(i)];
+  for (int i = 0; i < model.n(); ++i)
+    out.acceleration += out.jacobian.col(i) * psidd[static_cast<std::size_t>(i)];
   return out;
 }
 
 /// Kinetic energy 1/2 Q'^T S Q' and the potential of gravity.
 template <class T>
-Energy<T> energy(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t, Workspace<T>& ws) {
+Energy<T> energy(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t,
+                 Workspace<T>& ws) {
   coordinates(model, psi, t, ws);
   coordinate_rates(model, psi, psid, t, ws);
   frame_variations(model, ws);
@@ -116,18 +124,28 @@ Energy<T> energy(const Model<T>& model, std::span<const T> psi, std::span<const 
   Energy<T> result;
   result.kinetic = ws.qd.dot(ws.load) / T(2);
   for (const auto& body : model.bodies) {
-    const Vec3<T> place = at_point<T>(ws.frames[static_cast<std::size_t>(body.frame)].T_0, body.center_of_mass);
+    const Vec3<T> place =
+        at_point<T>(ws.frames[static_cast<std::size_t>(body.frame)].T_0, body.center_of_mass);
     result.potential -= body.mass * model.gravity.dot(place);
   }
   return result;
 }
 
 // Compiled once for double, in procedure.cpp.
-extern template const Mat<double>& mass_matrix(const Model<double>&, std::span<const double>, const double&, Workspace<double>&);
-extern template const Vec<double>& bias(const Model<double>&, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
-extern template const Vec<double>& inverse_dynamics(const Model<double>&, std::span<const double>, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
-extern template const Vec<double>& forward_dynamics(const Model<double>&, std::span<const double>, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
-extern template const EndEffectorState<double>& end_effector(const Model<double>&, std::span<const double>, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
-extern template Energy<double> energy(const Model<double>&, std::span<const double>, std::span<const double>, const double&, Workspace<double>&);
+extern template const Mat<double>& mass_matrix(const Model<double>&, std::span<const double>, const double&,
+                                               Workspace<double>&);
+extern template const Vec<double>& bias(const Model<double>&, std::span<const double>,
+                                        std::span<const double>, const double&, Workspace<double>&);
+extern template const Vec<double>& inverse_dynamics(const Model<double>&, std::span<const double>,
+                                                    std::span<const double>, std::span<const double>,
+                                                    const double&, Workspace<double>&);
+extern template const Vec<double>& forward_dynamics(const Model<double>&, std::span<const double>,
+                                                    std::span<const double>, std::span<const double>,
+                                                    const double&, Workspace<double>&);
+extern template const EndEffectorState<double>& end_effector(const Model<double>&, std::span<const double>,
+                                                             std::span<const double>, std::span<const double>,
+                                                             const double&, Workspace<double>&);
+extern template Energy<double> energy(const Model<double>&, std::span<const double>, std::span<const double>,
+                                      const double&, Workspace<double>&);
 
 }  // namespace mixloop

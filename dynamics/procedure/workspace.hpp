@@ -24,11 +24,22 @@ struct Energy {
 template <class T>
 struct Workspace {
   explicit Workspace(const Model<T>& model)
-      : q(Vec<T>::Zero(model.m())), qd(q), q_bias(q), C(Mat<T>::Zero(model.m(), model.n())),
+      : q(Vec<T>::Zero(model.m())),
+        qd(q),
+        q_bias(q),
+        C(Mat<T>::Zero(model.m(), model.n())),
         along(static_cast<std::size_t>(model.m())),
-        frames(model.links.size() + 1), D(3, model.m()), O(3, model.m()),
-        S(Mat<T>::Zero(model.m(), model.m())), a(Vec<T>::Zero(model.m())),
-        SC(model.m(), model.n()), M(model.n(), model.n()), h(model.n()), out(model.n()), L(model.n(), model.n()), load(model.m()) {
+        frames(model.links.size() + 1),
+        D(3, model.m()),
+        O(3, model.m()),
+        S(Mat<T>::Zero(model.m(), model.m())),
+        a(Vec<T>::Zero(model.m())),
+        SC(model.m(), model.n()),
+        M(model.n(), model.n()),
+        h(model.n()),
+        out(model.n()),
+        L(model.n(), model.n()),
+        load(model.m()) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
       auto& frame = frames[i];
       frame.T_0 << T(1), T(0), T(0), T(0), T(0), T(1), T(0), T(0), T(0), T(0), T(1), T(0);
@@ -42,25 +53,25 @@ struct Workspace {
 
   /// Of one frame: (6), (8), its rate, and the velocity products of (12).
   struct Frame {
-    Mat34<T> T_0;              ///< [T]_0^i
-    std::vector<Mat34<T>> V;   ///< [V]_j for each coordinate of the frame's path
-    Mat34<T> Td;               ///< sum_j q'_j [V]_j
-    Mat34<T> Tdd_bias;         ///< sum_j q'_j [V']_j
+    Mat34<T> T_0;             ///< [T]_0^i
+    std::vector<Mat34<T>> V;  ///< [V]_j for each coordinate of the frame's path
+    Mat34<T> Td;              ///< sum_j q'_j [V]_j
+    Mat34<T> Tdd_bias;        ///< sum_j q'_j [V']_j
   };
 
-  Vec<T> q, qd;    ///< m: (1) and its rate, C psi' + F_t
-  Vec<T> q_bias;   ///< m: q'' where psi'' = 0
-  Mat<T> C;        ///< m x n, (3)
+  Vec<T> q, qd;                  ///< m: (1) and its rate, C psi' + F_t
+  Vec<T> q_bias;                 ///< m: q'' where psi'' = 0
+  Mat<T> C;                      ///< m x n, (3)
   std::vector<Taylor<T>> along;  ///< the coordinates along a line, while constraints are evaluated
   std::vector<Frame> frames;
-  Mat<T> D, O;     ///< 3 x path: (9), (11) of the body in hand
-  Mat<T> S;        ///< m x m: -sum [DD_i] (25)
-  Vec<T> a;        ///< m: -sum [AD_i]^T (26)
-  Mat<T> SC;       ///< m x n: S C
-  Mat<T> M;        ///< n x n
-  Vec<T> h, out;   ///< n
-  Mat<T> L;        ///< n x n: LDL^T of M
-  Vec<T> load;     ///< m
+  Mat<T> D, O;    ///< 3 x path: (9), (11) of the body in hand
+  Mat<T> S;       ///< m x m: -sum [DD_i] (25)
+  Vec<T> a;       ///< m: -sum [AD_i]^T (26)
+  Mat<T> SC;      ///< m x n: S C
+  Mat<T> M;       ///< n x n
+  Vec<T> h, out;  ///< n
+  Mat<T> L;       ///< n x n: LDL^T of M
+  Vec<T> load;    ///< m
   EndEffectorState<T> end_effector;
 };
 

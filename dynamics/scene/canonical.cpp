@@ -11,7 +11,8 @@ namespace {
 
 void add(std::string& text, const Formula& formula) {
   for (const auto& node : formula.nodes)
-    text += fmt::format("{},{},{},{:a},{},{};", static_cast<int>(node.op), node.left, node.right, node.value, node.symbol, node.exponent);
+    text += fmt::format("{},{},{},{:a},{},{};", static_cast<int>(node.op), node.left, node.right, node.value,
+                        node.symbol, node.exponent);
   text += '\n';
 }
 
@@ -22,12 +23,15 @@ void add(std::string& text, std::span<const Formula> formulas) {
 }  // namespace
 
 std::string canonical_text(const Scene& scene) {
-  std::string text = fmt::format("mixloop scene 1\n{} {} {}\n", scene.parameters.size(), scene.n(), scene.m());
+  std::string text =
+      fmt::format("mixloop scene 1\n{} {} {}\n", scene.parameters.size(), scene.n(), scene.m());
   for (const auto& motor : scene.motors) text += motor.linear ? "linear\n" : "rotary\n";
   for (const auto& coordinate : scene.coordinates) add(text, coordinate.constraint);
   for (const auto& transform : scene.transforms) {
-    text += fmt::format("transform {} {} {}\n", transform.parent, transform.coordinate.value_or(-1), transform.prismatic);
-    for (const auto* formula : {&transform.theta, &transform.s, &transform.a, &transform.alpha}) add(text, *formula);
+    text += fmt::format("transform {} {} {}\n", transform.parent, transform.coordinate.value_or(-1),
+                        transform.prismatic);
+    for (const auto* formula : {&transform.theta, &transform.s, &transform.a, &transform.alpha})
+      add(text, *formula);
   }
   for (const auto& body : scene.bodies) {
     text += fmt::format("body {}\n", body.frame);
@@ -43,7 +47,8 @@ std::string canonical_text(const Scene& scene) {
   }
   text += "gravity\n";
   add(text, scene.gravity);
-  text += fmt::format("end effector {} {}\n", scene.end_effector.frame, fmt::join(scene.end_effector.axes, " "));
+  text +=
+      fmt::format("end effector {} {}\n", scene.end_effector.frame, fmt::join(scene.end_effector.axes, " "));
   add(text, scene.end_effector.point);
   for (const double psi : scene.home) text += fmt::format("{:a} ", psi);
   for (const auto& singularity : scene.singularities) add(text, singularity.measure);

@@ -22,13 +22,17 @@ class ValuesAtHome {
     symbols_.resize(q0 + scene.coordinates.size());
     for (const int j : scene.evaluation_order) {
       const auto& coordinate = scene.coordinates[static_cast<std::size_t>(j)];
-      symbols_[q0 + static_cast<std::size_t>(j)] = of(coordinate.constraint, "the coordinate '" + coordinate.name + "'");
+      symbols_[q0 + static_cast<std::size_t>(j)] =
+          of(coordinate.constraint, "the coordinate '" + coordinate.name + "'");
     }
   }
 
   double of(const Formula& formula, const std::string& what) const {
-    const double value = evaluate<double>(formula, [&](int symbol) { return symbols_[static_cast<std::size_t>(symbol)]; });
-    if (!std::isfinite(value)) throw InputError("not_finite", formula.place, what + " is not finite at these parameters, at home at t = 0");
+    const double value =
+        evaluate<double>(formula, [&](int symbol) { return symbols_[static_cast<std::size_t>(symbol)]; });
+    if (!std::isfinite(value))
+      throw InputError("not_finite", formula.place,
+                       what + " is not finite at these parameters, at home at t = 0");
     return value;
   }
 
@@ -51,14 +55,17 @@ class ValuesAtHome {
 void check_body(const Scene::Body& body, const ValuesAtHome& values) {
   const double mass = values.of(body.mass, "the mass");
   if (mass < 0)
-    throw InputError("negative_mass", body.mass.place, fmt::format("{} has a mass of {} kg; expected 0 or more", in_quotes(body.name), mass));
+    throw InputError("negative_mass", body.mass.place,
+                     fmt::format("{} has a mass of {} kg; expected 0 or more", in_quotes(body.name), mass));
   values.check(body.center_of_mass, "the centre of mass");
   const Eigen::Vector3d principal = values.principal_moments(body);
   // Rounding of an eigenvalue is a few units in the last place of the largest element.
   if (principal[0] < -1e-14 * std::max(principal.cwiseAbs().maxCoeff(), 1e-300))
-    throw InputError("impossible_inertia", body.inertia[0].place,
-                     fmt::format("{} has a principal moment of inertia of {:.6g} kg m^2 (is it given about another point "
-                                 "than the centre of mass?); expected none below 0", in_quotes(body.name), principal[0]));
+    throw InputError(
+        "impossible_inertia", body.inertia[0].place,
+        fmt::format("{} has a principal moment of inertia of {:.6g} kg m^2 (is it given about another point "
+                    "than the centre of mass?); expected none below 0",
+                    in_quotes(body.name), principal[0]));
 }
 
 }  // namespace
@@ -66,7 +73,8 @@ void check_body(const Scene::Body& body, const ValuesAtHome& values) {
 void check_physical(const Scene& scene, const std::vector<double>& parameters) {
   const ValuesAtHome values(scene, parameters);
   for (const auto& transform : scene.transforms)
-    for (const auto* formula : {&transform.theta, &transform.s, &transform.a, &transform.alpha}) values.of(*formula, "the transform's number");
+    for (const auto* formula : {&transform.theta, &transform.s, &transform.a, &transform.alpha})
+      values.of(*formula, "the transform's number");
   for (const auto& body : scene.bodies) check_body(body, values);
   for (const auto& load : scene.loads) {
     values.check(load.point, "the load's point");
@@ -75,7 +83,8 @@ void check_physical(const Scene& scene, const std::vector<double>& parameters) {
   }
   values.check(scene.gravity, "gravity");
   values.check(scene.end_effector.point, "the end effector's point");
-  for (const auto& singularity : scene.singularities) values.of(singularity.measure, "the singularity's measure");
+  for (const auto& singularity : scene.singularities)
+    values.of(singularity.measure, "the singularity's measure");
 }
 
 std::vector<std::string> physical_warnings(const Scene& scene) {
@@ -84,8 +93,10 @@ std::vector<std::string> physical_warnings(const Scene& scene) {
   for (const auto& body : scene.bodies) {
     const Eigen::Vector3d principal = values.principal_moments(body);
     if (principal[2] <= (principal[0] + principal[1]) * (1 + 1e-12)) continue;
-    warnings.push_back(fmt::format("{}: the largest moment of inertia of {}, {:.6g} kg m^2, exceeds the sum of the others, {:.6g}: no real mass is spread so",
-                                   to_string(body.place), in_quotes(body.name), principal[2], principal[0] + principal[1]));
+    warnings.push_back(
+        fmt::format("{}: the largest moment of inertia of {}, {:.6g} kg m^2, exceeds the sum of the others, "
+                    "{:.6g}: no real mass is spread so",
+                    to_string(body.place), in_quotes(body.name), principal[2], principal[0] + principal[1]));
   }
   return warnings;
 }

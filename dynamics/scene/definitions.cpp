@@ -23,9 +23,11 @@ class Sorter {
     if (again != path_.end()) {
       std::string cycle;
       for (auto name = again; name != path_.end(); ++name) cycle += *name + " -> ";
-      throw InputError("cyclic_definition", entry.place, what_ + " defined by themselves: " + cycle + entry.key);
+      throw InputError("cyclic_definition", entry.place,
+                       what_ + " defined by themselves: " + cycle + entry.key);
     }
-    if (path_.size() > 500) throw InputError("too_deep", entry.place, what_ + " that refer to each other more than 500 deep");
+    if (path_.size() > 500)
+      throw InputError("too_deep", entry.place, what_ + " that refer to each other more than 500 deep");
     path_.push_back(entry.key);
     for (const auto& name : names_in(text_of(*entry.value, "a formula for '" + entry.key + "'")))
       if (const auto other = entries_.find(name); other != entries_.end()) visit(*other->second);
@@ -44,7 +46,8 @@ class Sorter {
 
 }  // namespace
 
-void define_in_order(const Node& mapping, const std::string& what, const std::function<void(const Node::Entry&)>& define) {
+void define_in_order(const Node& mapping, const std::string& what,
+                     const std::function<void(const Node::Entry&)>& define) {
   Sorter sorter(mapping, what, define);
   for (const auto& entry : mapping.entries) sorter.visit(entry);
 }

@@ -8,20 +8,25 @@
 
 namespace mixloop {
 
-Formula SceneDraft::formula(const Node& node, const Dimension& wanted, const std::string& what, const Scope& scope) {
+Formula SceneDraft::formula(const Node& node, const Dimension& wanted, const std::string& what,
+                            const Scope& scope) {
   constexpr std::size_t kMostTerms = 100'000;
   Formula result = parse_formula(node, what, scope);
   require_dimension(result, wanted, what);
   terms += result.nodes.size();
   if (terms > kMostTerms)
-    throw InputError("too_large", node.place, fmt::format("the scene's formulas have more than {} terms, constants written out", kMostTerms));
+    throw InputError(
+        "too_large", node.place,
+        fmt::format("the scene's formulas have more than {} terms, constants written out", kMostTerms));
   return result;
 }
 
-std::array<Formula, 3> SceneDraft::vector(const NodePtr& node, const Dimension& wanted, const std::string& what, const Scope& scope) {
+std::array<Formula, 3> SceneDraft::vector(const NodePtr& node, const Dimension& wanted,
+                                          const std::string& what, const Scope& scope) {
   if (!node) return {constant_formula(0, wanted), constant_formula(0, wanted), constant_formula(0, wanted)};
   if (node->kind != Node::Kind::kSequence || node->items.size() != 3)
-    throw InputError("wrong_size", node->place, "found " + describe(*node) + "; expected " + what + " as [x, y, z]");
+    throw InputError("wrong_size", node->place,
+                     "found " + describe(*node) + "; expected " + what + " as [x, y, z]");
   const auto part = [&](std::size_t i) { return formula(*node->items[i], wanted, what, scope); };
   return {part(0), part(1), part(2)};
 }
@@ -31,7 +36,9 @@ int SceneDraft::frame(const Mapping& entry) const {
   const std::string& name = text_of(*node, "a frame's name");
   const auto found = frame_index.find(name);
   if (found == frame_index.end())
-    throw InputError("broken_path", node->place, entry.what() + " sits on the frame " + in_quotes(name) + ", which no transform makes" + suggestion(name, scene.frames));
+    throw InputError("broken_path", node->place,
+                     entry.what() + " sits on the frame " + in_quotes(name) + ", which no transform makes" +
+                         suggestion(name, scene.frames));
   return found->second;
 }
 
@@ -39,14 +46,18 @@ const Node* section(const Mapping& root, const char* key) {
   const NodePtr node = root.find(key);
   if (!node || node->kind == Node::Kind::kEmpty) return nullptr;
   if (node->kind != Node::Kind::kMapping)
-    throw InputError("wrong_kind", node->place, "found " + describe(*node) + "; expected " + key + " as name: value");
+    throw InputError("wrong_kind", node->place,
+                     "found " + describe(*node) + "; expected " + key + " as name: value");
   return node.get();  // the document keeps it
 }
 
-std::vector<NodePtr> items_within(const NodePtr& node, std::size_t least, std::size_t most, const std::string& what) {
+std::vector<NodePtr> items_within(const NodePtr& node, std::size_t least, std::size_t most,
+                                  const std::string& what) {
   auto items = items_of(node, what);
   if (items.size() < least || items.size() > most)
-    throw InputError("wrong_size", node->place, fmt::format("found {}; expected {}, from {} to {} of them", describe(*node), what, least, most));
+    throw InputError(
+        "wrong_size", node->place,
+        fmt::format("found {}; expected {}, from {} to {} of them", describe(*node), what, least, most));
   return items;
 }
 

@@ -24,7 +24,8 @@ struct SceneDraft {
   /// together have too many terms.
   Formula formula(const Node& node, const Dimension& wanted, const std::string& what, const Scope& scope);
   /// Three of them, or zeros where the node is null.
-  std::array<Formula, 3> vector(const NodePtr& node, const Dimension& wanted, const std::string& what, const Scope& scope);
+  std::array<Formula, 3> vector(const NodePtr& node, const Dimension& wanted, const std::string& what,
+                                const Scope& scope);
   /// The frame that the entry names under `frame`.
   int frame(const Mapping& entry) const;
 };
@@ -32,7 +33,8 @@ struct SceneDraft {
 /// The mapping at `key` of a scene, or null where it is absent or empty; throws InputError for anything else.
 const Node* section(const Mapping& root, const char* key);
 /// A list's items; throws InputError unless there are from `least` to `most`.
-std::vector<NodePtr> items_within(const NodePtr& node, std::size_t least, std::size_t most, const std::string& what);
+std::vector<NodePtr> items_within(const NodePtr& node, std::size_t least, std::size_t most,
+                                  const std::string& what);
 /// As check_name, and it may not be `t`, the time.
 void check_symbol_name(const std::string& name, const Place& place);
 

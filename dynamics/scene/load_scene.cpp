@@ -12,7 +12,8 @@ namespace {
 
 void read_name(const Mapping& root, Scene& scene) {
   const NodePtr node = root.find("name");
-  scene.name = node ? text_of(*node, "the scene's name") : std::filesystem::path(root.node().place.file).stem().string();
+  scene.name = node ? text_of(*node, "the scene's name")
+                    : std::filesystem::path(root.node().place.file).stem().string();
 }
 
 void read_end_effector(const Mapping& root, SceneDraft& draft) {
@@ -42,8 +43,10 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const NodePtr value = entry.find(names[i]);
     if (!value) continue;
-    const Formula psi = draft.formula(*value, scene.motors[i].linear ? kLength : kPure, "the position of '" + names[i] + "'", draft.fixed);
-    if (!psi.is_constant()) throw InputError("varying_number", value->place, "home depends on no parameter; expected a number");
+    const Formula psi = draft.formula(*value, scene.motors[i].linear ? kLength : kPure,
+                                      "the position of '" + names[i] + "'", draft.fixed);
+    if (!psi.is_constant())
+      throw InputError("varying_number", value->place, "home depends on no parameter; expected a number");
     scene.home[i] = psi.constant();
   }
 }
@@ -52,15 +55,18 @@ void read_singularities(const Mapping& root, SceneDraft& draft) {
   const Node* node = section(root, "singularities");
   if (!node) return;
   for (const auto& entry : node->entries)
-    draft.scene.singularities.push_back({entry.key, draft.formula(*entry.value, kOpen, "a formula that is zero at the singularity", draft.moving), entry.place});
+    draft.scene.singularities.push_back(
+        {entry.key,
+         draft.formula(*entry.value, kOpen, "a formula that is zero at the singularity", draft.moving),
+         entry.place});
 }
 
 }  // namespace
 
 Scene load_scene(const NodePtr& document) {
   const Mapping root(document, "the scene",
-                     {"name", "constants", "parameters", "motors", "coordinates", "constraints", "transforms", "bodies", "loads",
-                      "gravity", "end_effector", "home", "singularities"});
+                     {"name", "constants", "parameters", "motors", "coordinates", "constraints", "transforms",
+                      "bodies", "loads", "gravity", "end_effector", "home", "singularities"});
   SceneDraft draft;
   Scene& scene = draft.scene;
   read_name(root, scene);
@@ -83,13 +89,15 @@ Scene load_scene(const NodePtr& document) {
 
 Scene load_scene(const std::filesystem::path& path) { return load_scene(read_document(path)); }
 
-std::vector<double> parameter_values(const Scene& scene, const NodePtr& overrides, std::vector<double> values) {
+std::vector<double> parameter_values(const Scene& scene, const NodePtr& overrides,
+                                     std::vector<double> values) {
   if (!overrides || overrides->kind == Node::Kind::kEmpty) return values;
   std::vector<std::string> names;
   for (const auto& parameter : scene.parameters) names.push_back(parameter.name);
   const Mapping entry(overrides, "the parameters", names);
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (const NodePtr value = entry.find(names[i])) values[i] = number_of(*value, scene.parameters[i].dimension, "the parameter '" + names[i] + "'");
+    if (const NodePtr value = entry.find(names[i]))
+      values[i] = number_of(*value, scene.parameters[i].dimension, "the parameter '" + names[i] + "'");
   try {
     check_physical(scene, values);
   } catch (const InputError& error) {

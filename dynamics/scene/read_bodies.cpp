@@ -28,9 +28,11 @@ void read_bodies(const Mapping& root, SceneDraft& draft) {
     body.place = item->place;
     body.frame = draft.frame(entry);
     const NodePtr name = entry.find("name");
-    body.name = name ? text_of(*name, "a body's name") : fmt::format("body {}", draft.scene.bodies.size() + 1);
+    body.name =
+        name ? text_of(*name, "a body's name") : fmt::format("body {}", draft.scene.bodies.size() + 1);
     body.mass = draft.formula(*entry.at("mass"), kMass, "the mass", draft.fixed);
-    body.center_of_mass = draft.vector(entry.find("center_of_mass"), kLength, "the centre of mass", draft.fixed);
+    body.center_of_mass =
+        draft.vector(entry.find("center_of_mass"), kLength, "the centre of mass", draft.fixed);
     body.inertia.fill(constant_formula(0, kInertia, item->place));
     if (const NodePtr tensor = entry.find("inertia")) read_inertia(tensor, body, draft);
     draft.scene.bodies.push_back(std::move(body));

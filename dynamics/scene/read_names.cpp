@@ -20,13 +20,15 @@ constexpr std::size_t kMostCoordinates = 256;
 const Node& constraints_of(const Mapping& root) {
   const NodePtr node = root.at("constraints");
   if (node->kind != Node::Kind::kMapping)
-    throw InputError("wrong_kind", node->place, "found " + describe(*node) + "; expected constraints as coordinate: equation");
+    throw InputError("wrong_kind", node->place,
+                     "found " + describe(*node) + "; expected constraints as coordinate: equation");
   return *node;
 }
 
 void list_coordinates(const NodePtr& list, const Node& constraints, SceneDraft& draft) {
   const auto constrained = [&](const std::string& name) {
-    return std::any_of(constraints.entries.begin(), constraints.entries.end(), [&](const auto& entry) { return entry.key == name; });
+    return std::any_of(constraints.entries.begin(), constraints.entries.end(),
+                       [&](const auto& entry) { return entry.key == name; });
   };
   for (const auto& item : items_within(list, 1, kMostCoordinates, "the coordinates' names")) {
     const std::string& name = text_of(*item, "a coordinate's name");
@@ -34,7 +36,9 @@ void list_coordinates(const NodePtr& list, const Node& constraints, SceneDraft& 
     if (!draft.coordinate_index.emplace(name, draft.scene.m()).second)
       throw InputError("doubly_defined", item->place, "the coordinate '" + name + "' is listed twice");
     if (!constrained(name))
-      throw InputError("missing_constraint", item->place, "no constraint gives the coordinate '" + name + "'; expected an entry '" + name + ": ...' under constraints");
+      throw InputError("missing_constraint", item->place,
+                       "no constraint gives the coordinate '" + name + "'; expected an entry '" + name +
+                           ": ...' under constraints");
     draft.scene.coordinates.push_back({name, {}});
   }
 }
@@ -44,7 +48,9 @@ void refuse_other_constraints(const Node& constraints, const SceneDraft& draft) 
     if (draft.coordinate_index.contains(entry.key)) continue;
     std::vector<std::string> names;
     for (const auto& coordinate : draft.scene.coordinates) names.push_back(coordinate.name);
-    throw InputError("undefined_symbol", entry.place, "a constraint for " + in_quotes(entry.key) + ", which is no coordinate" + suggestion(entry.key, names));
+    throw InputError("undefined_symbol", entry.place,
+                     "a constraint for " + in_quotes(entry.key) + ", which is no coordinate" +
+                         suggestion(entry.key, names));
   }
 }
 
@@ -54,12 +60,16 @@ void read_parameters(const Mapping& root, SceneDraft& draft) {
   const Node* node = section(root, "parameters");
   if (!node) return;
   if (node->entries.size() > kMostParameters)
-    throw InputError("wrong_size", node->place, fmt::format("found {} parameters; expected {} at most", node->entries.size(), kMostParameters));
+    throw InputError(
+        "wrong_size", node->place,
+        fmt::format("found {} parameters; expected {} at most", node->entries.size(), kMostParameters));
   const Scope no_names;
   for (const auto& entry : node->entries) {
     check_symbol_name(entry.key, entry.place);
     const Formula value = draft.formula(*entry.value, kOpen, "a parameter's default", no_names);
-    draft.fixed.define_symbol(entry.key, Symbols::kParameter0 + static_cast<int>(draft.scene.parameters.size()), value.dimension, entry.place);
+    draft.fixed.define_symbol(entry.key,
+                              Symbols::kParameter0 + static_cast<int>(draft.scene.parameters.size()),
+                              value.dimension, entry.place);
     draft.scene.parameters.push_back({entry.key, value.dimension, value.constant(), entry.place});
   }
 }
@@ -69,7 +79,8 @@ void read_constants(const Mapping& root, SceneDraft& draft) {
   if (!node) return;
   for (const auto& entry : node->entries) check_symbol_name(entry.key, entry.place);
   define_in_order(*node, "constants", [&](const Node::Entry& entry) {
-    draft.fixed.define_formula(entry.key, draft.formula(*entry.value, kOpen, "a constant's value", draft.fixed), entry.place);
+    draft.fixed.define_formula(
+        entry.key, draft.formula(*entry.value, kOpen, "a constant's value", draft.fixed), entry.place);
   });
 }
 
@@ -84,12 +95,16 @@ void read_motors(const Mapping& root, SceneDraft& draft) {
     scene.motors.push_back({name, linear});
   };
   if (node->kind != Node::Kind::kMapping) {
-    for (const auto& item : items_within(node, 1, kMostMotors, "the motors' names")) add(text_of(*item, "a motor's name"), false, item->place);
+    for (const auto& item : items_within(node, 1, kMostMotors, "the motors' names"))
+      add(text_of(*item, "a motor's name"), false, item->place);
     return;
   }
   if (node->entries.empty() || node->entries.size() > kMostMotors)
-    throw InputError("wrong_size", node->place, fmt::format("found {} motors; expected from 1 to {}", node->entries.size(), kMostMotors));
-  for (const auto& entry : node->entries) add(entry.key, word_of(*entry.value, {"rotary", "linear"}, "the motor's kind") == 1, entry.place);
+    throw InputError(
+        "wrong_size", node->place,
+        fmt::format("found {} motors; expected from 1 to {}", node->entries.size(), kMostMotors));
+  for (const auto& entry : node->entries)
+    add(entry.key, word_of(*entry.value, {"rotary", "linear"}, "the motor's kind") == 1, entry.place);
 }
 
 void read_constraints(const Mapping& root, SceneDraft& draft) {
@@ -99,10 +114,13 @@ void read_constraints(const Mapping& root, SceneDraft& draft) {
   const Symbols symbols(draft.scene);
   define_in_order(constraints, "coordinates", [&](const Node::Entry& entry) {
     const int index = draft.coordinate_index.at(entry.key);
-    Formula equation = draft.formula(*entry.value, kOpen, "an equation for '" + entry.key + "'", draft.moving);
+    Formula equation =
+        draft.formula(*entry.value, kOpen, "an equation for '" + entry.key + "'", draft.moving);
     const Dimension dimension = equation.dimension.open ? kPure : equation.dimension;
     if (!dimension.pure() && !dimension.same_powers(kLength))
-      throw InputError("wrong_dimension", equation.place, "the coordinate '" + entry.key + "' is " + to_string(dimension) + "; expected an angle or a length");
+      throw InputError("wrong_dimension", equation.place,
+                       "the coordinate '" + entry.key + "' is " + to_string(dimension) +
+                           "; expected an angle or a length");
     draft.scene.coordinates[static_cast<std::size_t>(index)].constraint = std::move(equation);
     draft.scene.evaluation_order.push_back(index);
     draft.moving.define_symbol(entry.key, symbols.q0 + index, dimension, entry.place);

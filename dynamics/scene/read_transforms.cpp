@@ -17,15 +17,22 @@ void find_coordinate(const Scene& scene, Scene::Transform& transform) {
   const Symbols symbols(scene);
   for (const auto* part : {&transform.theta, &transform.s, &transform.a, &transform.alpha}) {
     if (depends_on(*part, [&](int symbol) { return symbol == Symbols::kTime || symbols.is_psi(symbol); }))
-      throw InputError("varying_number", part->place, "a transform varies by coordinates only, not by motors or time directly; name a coordinate with that constraint");
+      throw InputError("varying_number", part->place,
+                       "a transform varies by coordinates only, not by motors or time directly; name a "
+                       "coordinate with that constraint");
     for (int j = 0; j < scene.m(); ++j) {
       const int power = degree(*part, [&](int symbol) { return symbol == symbols.q0 + j; });
       if (power == 0) continue;
       const std::string& name = scene.coordinates[static_cast<std::size_t>(j)].name;
       if (part == &transform.a || part == &transform.alpha)
-        throw InputError("varying_number", part->place, "a and alpha are constant; '" + name + "' may vary theta or s");
-      if (power > 1) throw InputError("varying_number", part->place, "not affine in '" + name + "'; put the formula into its constraint");
-      if (transform.coordinate) throw InputError("varying_number", part->place, "a second varying coordinate '" + name + "' in one transform; expected at most one");
+        throw InputError("varying_number", part->place,
+                         "a and alpha are constant; '" + name + "' may vary theta or s");
+      if (power > 1)
+        throw InputError("varying_number", part->place,
+                         "not affine in '" + name + "'; put the formula into its constraint");
+      if (transform.coordinate)
+        throw InputError("varying_number", part->place,
+                         "a second varying coordinate '" + name + "' in one transform; expected at most one");
       transform.coordinate = j;
       transform.prismatic = part == &transform.s;
     }
@@ -40,7 +47,8 @@ void add_transform(const Mapping& entry, SceneDraft& draft) {
   transform.place = entry.node().place;
   const auto part = [&](const char* key, const Dimension& wanted) {
     const NodePtr node = entry.find(key);
-    return node ? draft.formula(*node, wanted, key, draft.moving) : constant_formula(0, wanted, entry.node().place);
+    return node ? draft.formula(*node, wanted, key, draft.moving)
+                : constant_formula(0, wanted, entry.node().place);
   };
   transform.theta = part("theta", kPure);
   transform.s = part("s", kLength);
@@ -58,23 +66,29 @@ void read_transforms(const Mapping& root, SceneDraft& draft) {
   std::vector<Mapping> pending;
   std::map<std::string, int> lines;
   for (const auto& item : items_within(root.at("transforms"), 1, kMostTransforms, "the transforms")) {
-    pending.emplace_back(item, "a transform", std::vector<std::string>{"from", "to", "theta", "s", "a", "alpha"});
+    pending.emplace_back(item, "a transform",
+                         std::vector<std::string>{"from", "to", "theta", "s", "a", "alpha"});
     text_of(*pending.back().at("from"), "a frame's name");
     const NodePtr to = pending.back().at("to");
     const std::string& name = text_of(*to, "a frame's name");
     if (name == "0") throw InputError("doubly_defined", to->place, "a transform to the ground frame '0'");
     if (const auto [known, is_new] = lines.emplace(name, to->place.line); !is_new)
-      throw InputError("doubly_defined", to->place, fmt::format("two transforms make the frame {}, the first at line {}", in_quotes(name), known->second));
+      throw InputError("doubly_defined", to->place,
+                       fmt::format("two transforms make the frame {}, the first at line {}", in_quotes(name),
+                                   known->second));
   }
   draft.scene.frames = {"0"};
   draft.frame_index["0"] = 0;
   while (!pending.empty()) {
-    const auto next = std::find_if(pending.begin(), pending.end(), [&](const Mapping& entry) { return draft.frame_index.contains(entry.at("from")->text); });
+    const auto next = std::find_if(pending.begin(), pending.end(), [&](const Mapping& entry) {
+      return draft.frame_index.contains(entry.at("from")->text);
+    });
     if (next == pending.end()) {
       const NodePtr from = pending.front().at("from");
-      throw InputError("broken_path", from->place,
-                       "the frame " + in_quotes(from->text) + " has no path to the ground frame '0'" +
-                           (lines.contains(from->text) ? ": its transforms form a circle" : ": no transform makes it"));
+      throw InputError(
+          "broken_path", from->place,
+          "the frame " + in_quotes(from->text) + " has no path to the ground frame '0'" +
+              (lines.contains(from->text) ? ": its transforms form a circle" : ": no transform makes it"));
     }
     add_transform(*next, draft);
     pending.erase(next);

@@ -39,10 +39,10 @@ struct Scene {
   /// At most one of theta and s contains a coordinate, and is affine in it.
   struct Transform {
     std::string from, to;
-    int parent = 0;                  ///< index of the frame `from`; frame i + 1 is made by transform i
-    Formula theta, s, a, alpha;      ///< rad, m, m, rad
-    std::optional<int> coordinate;   ///< index of the varying coordinate
-    bool prismatic = false;          ///< it varies s, not theta
+    int parent = 0;                 ///< index of the frame `from`; frame i + 1 is made by transform i
+    Formula theta, s, a, alpha;     ///< rad, m, m, rad
+    std::optional<int> coordinate;  ///< index of the varying coordinate
+    bool prismatic = false;         ///< it varies s, not theta
     Place place;
   };
 
@@ -84,9 +84,9 @@ struct Scene {
   std::vector<std::string> frames;    ///< names; frame 0 is the ground
   std::vector<Body> bodies;
   std::vector<Load> loads;
-  std::array<Formula, 3> gravity;     ///< m/s^2, inertial axes
+  std::array<Formula, 3> gravity;  ///< m/s^2, inertial axes
   EndEffector end_effector;
-  std::vector<double> home;           ///< psi that picks the branch of the inverse kinematics
+  std::vector<double> home;  ///< psi that picks the branch of the inverse kinematics
   std::vector<Singularity> singularities;
   std::vector<std::string> warnings;  ///< `file:line:column: what`, e.g. a triangle inequality
   std::string canonical;              ///< a text equal for equal mechanisms, to hash

@@ -38,7 +38,8 @@ TEST(Document, KeepsOrderTextAndPlaces) {
 
 TEST(Document, AbsentNullAndTildeAreEmptyButNotAQuotedNothing) {
   const NodePtr root = parsed("a:\nb: null\nc: ~\nd: ''\n");
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(root->entries[static_cast<std::size_t>(i)].value->kind, Node::Kind::kEmpty) << i;
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(root->entries[static_cast<std::size_t>(i)].value->kind, Node::Kind::kEmpty) << i;
   EXPECT_EQ(root->entries[3].value->kind, Node::Kind::kScalar);
 }
 
@@ -48,7 +49,9 @@ TEST(Document, AnAliasIsItsAnchorsValue) {
 }
 
 TEST(Document, AByteOrderMarkAndWindowsLinesAreNoMatter) {
-  const NodePtr root = parsed("\xef\xbb\xbf" "a: 1\r\nb: 'x\r\n  y'\r\n");
+  const NodePtr root = parsed(
+      "\xef\xbb\xbf"
+      "a: 1\r\nb: 'x\r\n  y'\r\n");
   EXPECT_EQ(root->entries[0].value->text, "1");
   EXPECT_EQ(to_string(root->entries[0].value->place), "file.yaml:1:4");
   EXPECT_EQ(to_string(root->entries[1].place), "file.yaml:2:1");
@@ -68,7 +71,9 @@ TEST(Document, EveryCharacterOfAScalarHasItsPlace) {
   EXPECT_EQ(place_of_last("a:\n   \"1 +\r\n   2\""), "3:4");
 }
 
-TEST(Document, AfterAnEscapePlacesCountFromTheLastKnownOne) { EXPECT_EQ(place_of_last("a: \"1\\x20+ 2\""), "1:9"); }
+TEST(Document, AfterAnEscapePlacesCountFromTheLastKnownOne) {
+  EXPECT_EQ(place_of_last("a: \"1\\x20+ 2\""), "1:9");
+}
 
 TEST(Document, ThirtyTwoLevelsAreRead) {
   std::string text = "1";
@@ -103,14 +108,16 @@ TEST(Document, MappingFindsItsKeys) {
 TEST(Document, ALoneValueCountsAsAListOfOne) {
   EXPECT_EQ(items_of(parsed("x"), "names").size(), 1U);
   EXPECT_EQ(items_of(parsed("[]"), "names").size(), 0U);
-  EXPECT_EQ(input_error([] { items_of(parsed("{a: 1}"), "names"); })->message, "found a mapping; expected a list: names");
+  EXPECT_EQ(input_error([] { items_of(parsed("{a: 1}"), "names"); })->message,
+            "found a mapping; expected a list: names");
 }
 
 TEST(Document, FlagsAreSaidInAFewWays) {
   EXPECT_TRUE(flag_of(*parsed("true"), "x"));
   EXPECT_TRUE(flag_of(*parsed("on"), "x"));
   EXPECT_FALSE(flag_of(*parsed("no"), "x"));
-  EXPECT_EQ(input_error([] { flag_of(*parsed("maybe"), "x"); })->message, "found 'maybe'; expected true or false for x");
+  EXPECT_EQ(input_error([] { flag_of(*parsed("maybe"), "x"); })->message,
+            "found 'maybe'; expected true or false for x");
 }
 
 TEST(Document, LimitsAreReachedInLinearTime) {  // ctest's time limit is the judge
@@ -124,7 +131,8 @@ TEST(Document, LimitsAreReachedInLinearTime) {  // ctest's time limit is the jud
 class RefusedDocument : public testing::TestWithParam<BadInput> {};
 
 TEST_P(RefusedDocument, WithItsPlace) {
-  expect_refused(GetParam(), [](const std::string& text, const std::string& file) { parse_document(text, file); });
+  expect_refused(GetParam(),
+                 [](const std::string& text, const std::string& file) { parse_document(text, file); });
 }
 
 std::string repeated(const std::string& part, std::size_t size) {
@@ -138,7 +146,8 @@ std::string billion_laughs() {
   std::string text = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 9; ++i) {
     text += fmt::format("a{}: &a{} [", i, i);
-    for (int k = 0; k < 10; ++k) text += fmt::format("{}{}*a{}", k ? ", " : "", i == 4 && k == 9 ? "@" : "", i - 1);
+    for (int k = 0; k < 10; ++k)
+      text += fmt::format("{}{}*a{}", k ? ", " : "", i == 4 && k == 9 ? "@" : "", i - 1);
     text += "]\n";
   }
   return text;
@@ -163,15 +172,24 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"Nul", std::string("a: 1\nb: @\0\n", 11), "not_text", "the byte 0x00"},
         BadInput{"Escape", "a: 1\nb: @\x1b[31m\n", "not_text", "the byte 0x1b"},
         BadInput{"Latin1", "a: K@\xf6ln\n", "not_text", "the byte 0xf6"},
-        BadInput{"Utf16", "@\xff\xfe" "a", "not_text", "the byte 0xff"},
-        BadInput{"Elf", "@\x7f" "ELF\x02\x01\x01", "not_text", "the byte 0x7f"},
+        BadInput{"Utf16",
+                 "@\xff\xfe"
+                 "a",
+                 "not_text", "the byte 0xff"},
+        BadInput{"Elf",
+                 "@\x7f"
+                 "ELF\x02\x01\x01",
+                 "not_text", "the byte 0x7f"},
         BadInput{"EscapedControl", "a: @\"\\e[31m\"\n", "not_text", "control character"},
         BadInput{"EscapedControlInKey", "@\"\\0\": 1\n", "not_text", "control character"},
-        BadInput{"TooDeepInFlow", repeated("{a: ", 128) + "@[1]" + std::string(32, '}'), "too_deep", "deeper than 32 levels"},
+        BadInput{"TooDeepInFlow", repeated("{a: ", 128) + "@[1]" + std::string(32, '}'), "too_deep",
+                 "deeper than 32 levels"},
         BadInput{"TooDeepInBlocks", repeated("- ", 64) + "@- 1", "too_deep", "deeper than 32 levels"},
         BadInput{"BillionLaughs", billion_laughs(), "too_large", "more than 100000 values"},
-        BadInput{"TooManyValues", repeated("- 1\n", 400'000 - 4) + "- @1\n", "too_large", "more than 100000 values"},
-        BadInput{"TooManyBytes", repeated("# a comment\n", (1 << 20) + 1), "too_large", "larger than 1048576 bytes"}),
+        BadInput{"TooManyValues", repeated("- 1\n", 400'000 - 4) + "- @1\n", "too_large",
+                 "more than 100000 values"},
+        BadInput{"TooManyBytes", repeated("# a comment\n", (1 << 20) + 1), "too_large",
+                 "larger than 1048576 bytes"}),
     bad_input_name);
 
 class RefusedKey : public testing::TestWithParam<BadInput> {};
@@ -184,16 +202,20 @@ TEST_P(RefusedKey, WithTheNearestKnownOne) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, RefusedKey,
-    testing::Values(BadInput{"Near", "frame: 1\n@mas: 2\n", "unknown_key", "unknown key 'mas' in a body; did you mean 'mass'?"},
-                    BadInput{"Far", "@colour: red\n", "unknown_key", "unknown key 'colour' in a body; expected one of 'frame', 'mass'"},
+    testing::Values(BadInput{"Near", "frame: 1\n@mas: 2\n", "unknown_key",
+                             "unknown key 'mas' in a body; did you mean 'mass'?"},
+                    BadInput{"Far", "@colour: red\n", "unknown_key",
+                             "unknown key 'colour' in a body; expected one of 'frame', 'mass'"},
                     BadInput{"Long", "@" + std::string(500, 'k') + ": 1\n", "unknown_key", "...' in a body"},
-                    BadInput{"NoMapping", "@[1]\n", "wrong_kind", "found a list of 1; expected a body as a mapping"}),
+                    BadInput{"NoMapping", "@[1]\n", "wrong_kind",
+                             "found a list of 1; expected a body as a mapping"}),
     bad_input_name);
 
 /// A file that is gone when the test ends.
 class File {
  public:
-  explicit File(const std::string& text) : path_(std::filesystem::temp_directory_path() / fmt::format("mixloop-{}.yaml", ::getpid())) {
+  explicit File(const std::string& text)
+      : path_(std::filesystem::temp_directory_path() / fmt::format("mixloop-{}.yaml", ::getpid())) {
     std::ofstream(path_, std::ios::binary) << text;
   }
   ~File() { std::filesystem::remove(path_); }

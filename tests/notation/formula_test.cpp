@@ -27,7 +27,9 @@ const Scope& scope() {
   return made;
 }
 
-Formula formula(const std::string& text) { return parse_formula(*parse_document(text, "f"), "a formula", scope()); }
+Formula formula(const std::string& text) {
+  return parse_formula(*parse_document(text, "f"), "a formula", scope());
+}
 
 double value(const std::string& text, double x = 0, double y = 0) {
   return evaluate<double>(formula(text), [&](int symbol) { return symbol == 0 ? x : y; });
@@ -144,7 +146,8 @@ TEST(Scope, NamesThatMeanSomethingElseAreRefused) {
   for (const char* name : {"", "1a", "a-b", "a b", "\u03c8", "m", "kg", "deg", "sin", "atan2", "pi"})
     EXPECT_EQ(input_error([&] { check_name(name, {"f", 1, 1}); })->code, "invalid_name") << name;
   EXPECT_EQ(input_error([&] { check_name(std::string(65, 'a'), {"f", 1, 1}); })->code, "invalid_name");
-  for (const char* name : {"a", "_", "q1", "L1", "sine", "Pi", "t"}) EXPECT_NO_THROW(check_name(name, {"f", 1, 1})) << name;
+  for (const char* name : {"a", "_", "q1", "L1", "sine", "Pi", "t"})
+    EXPECT_NO_THROW(check_name(name, {"f", 1, 1})) << name;
 }
 
 class RefusedFormula : public testing::TestWithParam<BadInput> {};
@@ -152,7 +155,8 @@ class RefusedFormula : public testing::TestWithParam<BadInput> {};
 TEST_P(RefusedFormula, WithItsPlace) {
   expect_refused(GetParam(), [](const std::string& text, const std::string& file) {
     const NodePtr root = parse_document(text, file);
-    parse_formula(root->kind == Node::Kind::kMapping ? *root->entries.at(0).value : *root, "a formula", scope());
+    parse_formula(root->kind == Node::Kind::kMapping ? *root->entries.at(0).value : *root, "a formula",
+                  scope());
   });
 }
 
@@ -180,16 +184,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"OneOfTwo", "atan2(x@)", "invalid_formula", "atan2 takes two values"},
         BadInput{"TwoOfOne", "sin(x@, y)", "invalid_formula", "not closed"},
         BadInput{"Greek", "x + @\u03c8", "invalid_formula", "found '\u03c8'; expected a value"},
-        BadInput{"Undefined", "x + @z1", "undefined_symbol", "undefined symbol 'z1'; expected one of 'len', 'twice', 'two', 'x', 'y'"},
+        BadInput{"Undefined", "x + @z1", "undefined_symbol",
+                 "undefined symbol 'z1'; expected one of 'len', 'twice', 'two', 'x', 'y'"},
         BadInput{"Misspelt", "2*@twise", "undefined_symbol", "did you mean 'twice'?"},
         BadInput{"UndefinedFunction", "@sinh(x)", "undefined_symbol", "undefined symbol 'sinh'"},
         BadInput{"UnknownUnit", "30 @cmm", "unknown_unit", "unknown unit 'cmm'; did you mean 'cm'?"},
         BadInput{"UnitInTheWrongCase", "5 @KG", "unknown_unit", "did you mean 'kg'?"},
         BadInput{"SymbolAsUnit", "2 @x", "unknown_unit", "unknown unit 'x'"},
         BadInput{"UnitOfUnits", "2 kg @foot", "unknown_unit", "unknown unit 'foot'"},
-        BadInput{"LengthPlusMass", "1 m @+ 1 kg", "wrong_dimension", "a length (m) and a mass (kg) cannot be added or subtracted"},
+        BadInput{"LengthPlusMass", "1 m @+ 1 kg", "wrong_dimension",
+                 "a length (m) and a mass (kg) cannot be added or subtracted"},
         BadInput{"AngleMinusLength", "x @- y", "wrong_dimension", "cannot be added or subtracted"},
-        BadInput{"SineOfALength", "@sin(y)", "wrong_dimension", "a function of a length (m); expected a number or an angle"},
+        BadInput{"SineOfALength", "@sin(y)", "wrong_dimension",
+                 "a function of a length (m); expected a number or an angle"},
         BadInput{"SidesOfAnAngle", "@atan2(y, x)", "wrong_dimension", "the two sides of one angle"},
         BadInput{"RootOfARoot", "1 + @sqrt(sqrt(y))", "wrong_dimension", "the square root of m^(1/2)"},
         BadInput{"FractionalPower", "x@^0.5", "invalid_formula", "no whole number"},
@@ -215,7 +222,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"InABlock", "a: |\n  x +\n  x * 2 + @z1\n", "undefined_symbol", "in 'x + x * 2 + z1 '"},
         BadInput{"Folded", "a: >\n  2 *\n  @z1\n", "undefined_symbol", "'z1'"},
         BadInput{"Anchored", "a: &k 2 * @z1\n", "undefined_symbol", "'z1'"},
-        BadInput{"TooDeep", repeated("(", 63) + "(@1" + repeated(")", 64), "too_deep", "nested deeper than 64 levels"},
+        BadInput{"TooDeep", repeated("(", 63) + "(@1" + repeated(")", 64), "too_deep",
+                 "nested deeper than 64 levels"},
         BadInput{"TooManySigns", repeated("-", 64) + "@-1", "too_deep", "nested deeper than 64 levels"},
         BadInput{"TooHigh", "x" + repeated("+x", 255) + "@+x", "too_large", "more than 256 levels"},
         BadInput{"LongText", "x + @" + std::string(100'000, 'z'), "undefined_symbol", "zzz...'"}),
@@ -228,7 +236,8 @@ TEST(Formula, ConstantsThatDoubleEachOtherAreBounded) {
   for (int i = 1; i < 64 && !refused; ++i) {
     try {
       const auto text = fmt::format("c{} + c{}", i - 1, i - 1);
-      names.define_formula(fmt::format("c{}", i), parse_formula(*parse_document(text, "f"), "a formula", names), {});
+      names.define_formula(fmt::format("c{}", i),
+                           parse_formula(*parse_document(text, "f"), "a formula", names), {});
     } catch (const InputError& error) {
       refused = error;
     }

@@ -27,7 +27,9 @@ TEST(Nearest, FindsNothingWhereNothingIsNear) {
   EXPECT_EQ(nearest(std::string(65, 'm'), kKeys), "") << "no word is that long";
 }
 
-TEST(Nearest, OfTwoEquallyNearTheFirst) { EXPECT_EQ(nearest("q", std::vector<std::string>{"q1", "q2"}), "q1"); }
+TEST(Nearest, OfTwoEquallyNearTheFirst) {
+  EXPECT_EQ(nearest("q", std::vector<std::string>{"q1", "q2"}), "q1");
+}
 
 TEST(Suggestion, NamesTheNearestOrAll) {
   EXPECT_EQ(suggestion("fram", kKeys), "; did you mean 'frame'?");

@@ -11,13 +11,16 @@ namespace {
 std::string flow(const Node& node) {
   std::string text;
   switch (node.kind) {
-    case Node::Kind::kEmpty: return "~";
-    case Node::Kind::kScalar: return node.text;
+    case Node::Kind::kEmpty:
+      return "~";
+    case Node::Kind::kScalar:
+      return node.text;
     case Node::Kind::kSequence:
       for (const auto& item : node.items) text += (text.empty() ? "" : ", ") + flow(*item);
       return "[" + text + "]";
     case Node::Kind::kMapping:
-      for (const auto& entry : node.entries) text += (text.empty() ? "" : ", ") + entry.key + ": " + flow(*entry.value);
+      for (const auto& entry : node.entries)
+        text += (text.empty() ? "" : ", ") + entry.key + ": " + flow(*entry.value);
       return "{" + text + "}";
   }
   return text;
@@ -66,8 +69,10 @@ TEST(Override, BadPathsAreRefused) {
   const NodePtr document = parse_document("{a: [1, 2], b: 3, e: }", "f");
   std::string deep = "x";
   for (int i = 0; i < 32; ++i) deep += ".x";
-  for (const std::string path : {"", ".", ".a", "a.", "a..b", "a[", "a[]", "a[x]", "a[0", "a[-1]", "a[0]b", "a[0].", "[0]", "a.[0]", "a[2]",
-                                 "a[18446744073709551616]", "a.x", "b.c", "b[0]", "e[0]", "c[0]"}) {
+  for (const std::string path :
+       {"",    ".",     ".a",    "a.",    "a..b", "a[",    "a[]",  "a[x]",
+        "a[0", "a[-1]", "a[0]b", "a[0].", "[0]",  "a.[0]", "a[2]", "a[18446744073709551616]",
+        "a.x", "b.c",   "b[0]",  "e[0]",  "c[0]"}) {
     const auto error = input_error([&] { override_entry(document, path, "1"); });
     EXPECT_TRUE(error && error->code == "invalid_path") << path;
   }
@@ -77,8 +82,10 @@ TEST(Override, BadPathsAreRefused) {
 
 TEST(Override, BadPathsSayWhatIsThere) {
   const NodePtr document = parse_document("{a: [1, 2], b: 3}", "f");
-  EXPECT_STREQ(input_error([&] { override_entry(document, "a[2]", "1"); })->what(), "--set a[2]: no item [2] there: it is a list of 2");
-  EXPECT_STREQ(input_error([&] { override_entry(document, "b.c", "1"); })->what(), "--set b.c: no entry 'c' there: it is '3'");
+  EXPECT_STREQ(input_error([&] { override_entry(document, "a[2]", "1"); })->what(),
+               "--set a[2]: no item [2] there: it is a list of 2");
+  EXPECT_STREQ(input_error([&] { override_entry(document, "b.c", "1"); })->what(),
+               "--set b.c: no entry 'c' there: it is '3'");
 }
 
 TEST(Override, BadValuesAreRefused) {

@@ -51,7 +51,8 @@ inline std::optional<InputError> input_error(const std::function<void()>& action
 }
 
 /// Reads the row's text with `read(text, file)` and holds the error against the row.
-inline void expect_refused(const BadInput& bad, const std::function<void(const std::string&, const std::string&)>& read) {
+inline void expect_refused(const BadInput& bad,
+                           const std::function<void(const std::string&, const std::string&)>& read) {
   const auto [text, place] = unmarked(bad.text, "bad.yaml");
   SCOPED_TRACE(text.substr(0, 2000));
   const auto error = input_error([&, &plain = text] { read(plain, "bad.yaml"); });

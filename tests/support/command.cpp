@@ -71,7 +71,8 @@ bool Command::running() {
 void Command::signal(int number) const { kill(pid_, number); }
 
 std::vector<int> Command::children() const {
-  std::istringstream list(read_file("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) + "/children"));
+  std::istringstream list(
+      read_file("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) + "/children"));
   std::vector<int> pids;
   for (int pid = 0; list >> pid;) pids.push_back(pid);
   return pids;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Preloaded (LD_PRELOAD) into a process that talks on the bus, it counts heap allocations of all threads while
-// the process is in its steady state: from its 100th datagram to the 20th before its last. At exit a line with
-// the program's name and the count is added to the file that MIXLOOP_STEADY_ALLOCATIONS names.
+// Preloaded (LD_PRELOAD) into a process that talks on the bus, it counts heap allocations of all threads
+// while the process is in its steady state: from its 100th datagram to the 20th before its last. At exit a
+// line with the program's name and the count is added to the file that MIXLOOP_STEADY_ALLOCATIONS names.
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -57,8 +57,12 @@ extern "C" {
 void* malloc(std::size_t size) { return ++allocations, __libc_malloc(size); }
 void* calloc(std::size_t count, std::size_t size) { return ++allocations, __libc_calloc(count, size); }
 void* realloc(void* block, std::size_t size) { return ++allocations, __libc_realloc(block, size); }
-void* memalign(std::size_t alignment, std::size_t size) { return ++allocations, __libc_memalign(alignment, size); }
-void* aligned_alloc(std::size_t alignment, std::size_t size) { return ++allocations, __libc_memalign(alignment, size); }
+void* memalign(std::size_t alignment, std::size_t size) {
+  return ++allocations, __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  return ++allocations, __libc_memalign(alignment, size);
+}
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
   ++allocations;
   *block = __libc_memalign(alignment, size);

@@ -28,13 +28,15 @@ TEST(Processes, AllocateNothingInTheirSteadyState) {
   if (MIXLOOP_SANITIZED) GTEST_SKIP() << "a sanitizer has its own malloc";
   ScratchFolder folder;
   Command command({bin("mixloop"), "run", experiment("paper"), "--truth", "--json"},
-                  {"LD_PRELOAD=" MIXLOOP_STEADY_ALLOCATIONS_LIBRARY, "MIXLOOP_STEADY_ALLOCATIONS=" + folder.file("counts")});
+                  {"LD_PRELOAD=" MIXLOOP_STEADY_ALLOCATIONS_LIBRARY,
+                   "MIXLOOP_STEADY_ALLOCATIONS=" + folder.file("counts")});
   ASSERT_EQ(command.wait(), 0) << command.err();
   std::ifstream counts(folder.file("counts"));
   std::map<std::string, long> found;
   std::string name;
   for (long count = 0; counts >> name >> count;) found[name] = count;
-  EXPECT_EQ(found, (std::map<std::string, long>{{"mixloop-controller", 0}, {"mixloop-planner", 0}, {"mixloop-plant", 0}}));
+  EXPECT_EQ(found, (std::map<std::string, long>{
+                       {"mixloop-controller", 0}, {"mixloop-planner", 0}, {"mixloop-plant", 0}}));
 }
 
 TEST(Processes, RefuseAPeerThatWasStartedWithSomethingElse) {
@@ -54,7 +56,8 @@ TEST(Processes, StudyAModelMismatchWithoutBeingRefused) {
 
 TEST(Processes, EndWhenTheyHearNobody) {
   Command plant({bin("mixloop-plant"), experiment("paper"), "--json", "--first-wait", "0.3"});
-  Command planner({bin("mixloop-planner"), experiment("paper"), "--first-wait", "0.3", "--channel-prefix", "ELSEWHERE_"});
+  Command planner(
+      {bin("mixloop-planner"), experiment("paper"), "--first-wait", "0.3", "--channel-prefix", "ELSEWHERE_"});
   EXPECT_EQ(plant.wait(), 3);
   EXPECT_EQ(planner.wait(), 3);
   EXPECT_THAT(planner.err(), HasSubstr("ELSEWHERE_STATE"));

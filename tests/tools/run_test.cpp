@@ -44,7 +44,9 @@ TEST(Run, GivesTheSimulatedBytesWhenIdle) {
 
 TEST(Run, GivesTheSimulatedBytesUnderLoad) {
   std::vector<std::unique_ptr<Command>> load;
-  for (int i = 0; i < 4; ++i) load.push_back(std::make_unique<Command>(std::vector<std::string>{"/bin/sh", "-c", "while :; do :; done"}));
+  for (int i = 0; i < 4; ++i)
+    load.push_back(
+        std::make_unique<Command>(std::vector<std::string>{"/bin/sh", "-c", "while :; do :; done"}));
   for (int i = 0; i < 3; ++i) {
     Command command(run_line());
     expect_the_simulated_bytes(command);
@@ -54,7 +56,9 @@ TEST(Run, GivesTheSimulatedBytesUnderLoad) {
 TEST(Run, GivesTheSimulatedBytesOnABadNetwork) {
   for (int seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
-    Command command(run_line(), {"LD_PRELOAD=" MIXLOOP_LOSSY_LIBRARY, "MIXLOOP_LOSSY=seed=" + std::to_string(seed) + ",lose=0.05,double=0.02,reorder=0.02"});
+    Command command(run_line(),
+                    {"LD_PRELOAD=" MIXLOOP_LOSSY_LIBRARY,
+                     "MIXLOOP_LOSSY=seed=" + std::to_string(seed) + ",lose=0.05,double=0.02,reorder=0.02"});
     expect_the_simulated_bytes(command);
     EXPECT_GT(command.json()["resent"], 0);
   }
@@ -93,7 +97,8 @@ TEST(Run, KeepsResultTrajectoryAndLog) {
   ScratchFolder folder;
   Command command(run_line({"--speed", "1", "--truth", "--out", folder.file("kept")}));
   expect_the_simulated_bytes(command);
-  for (const char* file : {"result.json", "trajectory.csv", "run.lcmlog"}) EXPECT_GT(std::filesystem::file_size(folder.path() / "kept" / file), 500U) << file;
+  for (const char* file : {"result.json", "trajectory.csv", "run.lcmlog"})
+    EXPECT_GT(std::filesystem::file_size(folder.path() / "kept" / file), 500U) << file;
   EXPECT_GT(command.json()["log"]["events"], 3000);
 }
 
@@ -111,7 +116,8 @@ TEST(Run, ReportsDivergenceAndPublishesNothingOfIt) {
   EXPECT_EQ(command.wait(), 3) << command.err();
   const auto result = command.json();
   EXPECT_EQ(result["verdict"], "diverged");
-  Command simulated({bin("mixloop"), "simulate", experiment("paper"), "--json", "--set", "plant.command_delay=1 ms"});
+  Command simulated(
+      {bin("mixloop"), "simulate", experiment("paper"), "--json", "--set", "plant.command_delay=1 ms"});
   EXPECT_EQ(simulated.wait(), 3);
   EXPECT_EQ(result["diverged_at"], simulated.json()["diverged_at"]);
   EXPECT_EQ(result["trajectory_sha256"], simulated.json()["trajectory_sha256"]);
@@ -168,7 +174,8 @@ TEST(Run, SaysThatAPeerIsLost) {
 
 TEST(Run, GoesOnHoldingUntilItIsStopped) {
   Command command({bin("mixloop"), "run", experiment("paper"), "--hold", "--speed", "5"});
-  ASSERT_TRUE(eventually([&] { return command.out().find("Holding the end point") != std::string::npos; })) << command.out() << command.err();
+  ASSERT_TRUE(eventually([&] { return command.out().find("Holding the end point") != std::string::npos; }))
+      << command.out() << command.err();
   EXPECT_THAT(command.out(), HasSubstr("13.2066936 mm"));
   EXPECT_THAT(command.out(), HasSubstr("nsenter"));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));

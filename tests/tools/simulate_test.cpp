@@ -21,7 +21,8 @@ nlohmann::json simulated(const std::string& name, const std::vector<std::string>
   return command.json();
 }
 
-// DESIGN's figures, on which three independent derivations agree to the digits shown; half a unit in the last.
+// DESIGN's figures, on which three independent derivations agree to the digits shown; half a unit in the
+// last.
 TEST(Simulate, GivesThePapersExperimentWithContinuousControl) {
   const auto result = simulated("paper_continuous", {});
   EXPECT_NEAR(result["max_position_error"], 13.1788518e-3, 0.5e-10);
@@ -45,12 +46,11 @@ TEST(Simulate, GivesTheVariantsOfThePapersExperiment) {
     const char* set;
     double millimetres, digit;
   };
-  for (const auto& [set, millimetres, digit] : {Row{"plant.substeps=10", 13.1788524, 1e-7},
-                                                Row{"controller.feedforward_at=desired", 12.8586, 1e-4},
-                                                Row{"scene.gravity=[0, 0, 0]", 14.0324, 1e-4},
-                                                Row{"parameters.payload=0 kg", 1.1123, 1e-4},
-                                                Row{"controller.law=pd", 15.8763, 1e-4},
-                                                Row{"controller.parameters={payload: 0 kg}", 15.632, 1e-3}}) {
+  for (const auto& [set, millimetres, digit] :
+       {Row{"plant.substeps=10", 13.1788524, 1e-7}, Row{"controller.feedforward_at=desired", 12.8586, 1e-4},
+        Row{"scene.gravity=[0, 0, 0]", 14.0324, 1e-4}, Row{"parameters.payload=0 kg", 1.1123, 1e-4},
+        Row{"controller.law=pd", 15.8763, 1e-4},
+        Row{"controller.parameters={payload: 0 kg}", 15.632, 1e-3}}) {
     SCOPED_TRACE(set);
     const double error = simulated("paper_continuous", {set, "expect={}"})["max_position_error"];
     EXPECT_NEAR(error * 1e3, millimetres, digit / 2);
@@ -58,7 +58,8 @@ TEST(Simulate, GivesTheVariantsOfThePapersExperiment) {
 }
 
 TEST(Simulate, RingsPastTheLongestDelayAsTheLinearisationSays) {
-  EXPECT_NEAR(simulated("paper", {"plant.command_delay=0.70 ms"})["max_torque"].get<std::vector<double>>()[2], 10.8, 0.05);
+  EXPECT_NEAR(simulated("paper", {"plant.command_delay=0.70 ms"})["max_torque"].get<std::vector<double>>()[2],
+              10.8, 0.05);
   const auto result = simulated("paper", {"plant.command_delay=0.75 ms"}, 1);
   EXPECT_NEAR(result["max_position_error"], 45e-3, 0.5e-3);
   EXPECT_NEAR(result["max_torque"].get<std::vector<double>>()[2], 533, 0.5);
@@ -104,7 +105,8 @@ TEST(Simulate, GivesTheSameBytesByInterpreterAndMachineCode) {
 TEST(Simulate, KeepsThePartialResultOnCtrlC) {
   ScratchFolder folder;
   // An hour and a half of simulated time: long enough to be interrupted on any machine.
-  Command command({bin("mixloop"), "simulate", experiment("there_and_back"), "--json", "--set", "path.repeat=2700", "--out", folder.file("kept")});
+  Command command({bin("mixloop"), "simulate", experiment("there_and_back"), "--json", "--set",
+                   "path.repeat=2700", "--out", folder.file("kept")});
   ASSERT_TRUE(eventually([&] { return std::filesystem::exists(folder.file("kept")); }));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   command.signal(SIGINT);

@@ -12,7 +12,8 @@ namespace {
 
 TEST(Track, ExitsWithTheHighestStatusAndWritesJunit) {
   ScratchFolder folder;
-  Command command({bin("mixloop"), "track", experiment("paper"), experiment("nothing"), experiment("must_diverge"), "--json", "--junit", folder.file("track.xml")});
+  Command command({bin("mixloop"), "track", experiment("paper"), experiment("nothing"),
+                   experiment("must_diverge"), "--json", "--junit", folder.file("track.xml")});
   EXPECT_EQ(command.wait(), 2);
   const auto results = command.json()["results"];
   ASSERT_EQ(results.size(), 3U);
@@ -33,7 +34,8 @@ TEST(Track, SaysWhichBoundWasMissed) {
 TEST(Track, GivesTheSameOverTheBus) {
   std::vector<std::string> hashes;
   for (const char* route : {"--patience=10", "--over-bus"}) {
-    Command command({bin("mixloop"), "track", experiment("paper"), experiment("via_points"), experiment("move_to_start"), "--json", route});
+    Command command({bin("mixloop"), "track", experiment("paper"), experiment("via_points"),
+                     experiment("move_to_start"), "--json", route});
     ASSERT_EQ(command.wait(), 0) << command.out() << command.err();
     std::string all;
     const auto json = command.json();
