@@ -55,14 +55,7 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
 }
 
 NodePtr parameters_in(const NodePtr& section) {
-  return section ? Mapping(section, "",
-                           [&] {
-                             std::vector<std::string> all;
-                             for (const auto& entry : section->entries) all.push_back(entry.key);
-                             return all;
-                           }())
-                       .find("parameters")
-                 : nullptr;
+  return section ? find_entry(*section, "parameters") : nullptr;
 }
 
 }  // namespace
@@ -94,9 +87,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
 
   const NodePtr controller = root.at("controller");
   experiment.controller = read_controller_settings(controller, scene);
-  const Mapping controller_entry(controller, "the controller",
-                                 {"law", "kp", "kv", "feedforward_at", "parameters", "scene"});
-  const NodePtr other_scene = controller_entry.find("scene");
+  const NodePtr other_scene = find_entry(*controller, "scene");
   experiment.controller_scene = other_scene ? scene_at(*other_scene, base, {}) : experiment.scene;
   if (experiment.controller_scene->n() != scene.n())
     throw InputError("wrong_size", other_scene->place,

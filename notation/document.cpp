@@ -71,8 +71,8 @@ Mapping::Mapping(NodePtr node, std::string what, std::vector<std::string> known)
                        "unknown key " + in_quotes(entry.key) + " in " + what_ + suggestion(entry.key, known));
 }
 
-NodePtr Mapping::find(std::string_view key) const {
-  for (const auto& entry : node_->entries)
+NodePtr find_entry(const Node& mapping, std::string_view key) {
+  for (const auto& entry : mapping.entries)
     if (entry.key == key) return entry.value;
   return nullptr;
 }

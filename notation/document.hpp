@@ -52,6 +52,9 @@ std::vector<NodePtr> items_of(const NodePtr& node, const std::string& what);
 /// true or false (yes/no, on/off); throws otherwise.
 bool flag_of(const Node& node, const std::string& what);
 
+/// The value of a mapping's entry, or null when there is none.
+NodePtr find_entry(const Node& mapping, std::string_view key);
+
 /// A mapping whose keys are known beforehand. Construction throws InputError: "wrong_kind" when the
 /// node is no mapping, "unknown_key" (with the nearest known one) for any other key.
 class Mapping {
@@ -59,7 +62,7 @@ class Mapping {
   Mapping(NodePtr node, std::string what, std::vector<std::string> known);
 
   /// The value, or null when the key is absent.
-  NodePtr find(std::string_view key) const;
+  NodePtr find(std::string_view key) const { return find_entry(*node_, key); }
   /// The value; throws InputError("missing_key") naming the mapping's place when absent.
   NodePtr at(std::string_view key) const;
   bool has(std::string_view key) const { return find(key) != nullptr; }
