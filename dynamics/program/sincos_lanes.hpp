@@ -25,9 +25,10 @@ MIXLOOP_INLINE typename Vectors<kLanes>::Real lane_by_lane(typename Vectors<kLan
   return x;
 }
 
+// Without the C library's help: for angles below kLimit.
 template <int kLanes>
-MIXLOOP_INLINE void sincos(typename Vectors<kLanes>::Real x, typename Vectors<kLanes>::Real* sine,
-                   typename Vectors<kLanes>::Real* cosine) {
+MIXLOOP_INLINE void small_sincos(const typename Vectors<kLanes>::Real& x, typename Vectors<kLanes>::Real& sine,
+                                 typename Vectors<kLanes>::Real& cosine) {
   using namespace mixloop_sincos;
   using Real = typename Vectors<kLanes>::Real;
   using Bits = typename Vectors<kLanes>::Bits;
@@ -40,31 +41,46 @@ MIXLOOP_INLINE void sincos(typename Vectors<kLanes>::Real x, typename Vectors<kL
   cosine_kernel(z, c);
   const Bits quadrant = (Bits)shifted, u = (Bits)s, v = (Bits)c;
   const Bits swapped = (u ^ v) & -(quadrant & 1);
-  *sine = (Real)(u ^ swapped ^ ((quadrant & 2) << 62));
-  *cosine = (Real)(v ^ swapped ^ (((quadrant + 1) & 2) << 62));
-  bool large = false;
-  for (int i = 0; i < kLanes; ++i) large |= !(x[i] < kLimit && x[i] > -kLimit);
-  if (!large) return;
-  for (int i = 0; i < kLanes; ++i) {
-    double exact_sine, exact_cosine;
-    mixloop_sincos::sincos(x[i], &exact_sine, &exact_cosine);
-    (*sine)[i] = exact_sine;
-    (*cosine)[i] = exact_cosine;
+  sine = (Real)(u ^ swapped ^ ((quadrant & 2) << 62));
+  cosine = (Real)(v ^ swapped ^ (((quadrant + 1) & 2) << 62));
+}
+
+template <int kLanes, int kCount>
+MIXLOOP_INLINE void sincos_of(const typename Vectors<kLanes>::Real (&x)[kCount],
+                              typename Vectors<kLanes>::Real (&sine)[kCount],
+                              typename Vectors<kLanes>::Real (&cosine)[kCount]) {
+  using Bits = typename Vectors<kLanes>::Bits;
+  constexpr int64_t kMagnitude = INT64_MAX;
+  typename Vectors<kLanes>::Real sum = {};
+  for (int i = 0; i < kCount; ++i) {
+    small_sincos<kLanes>(x[i], sine[i], cosine[i]);
+    sum += (typename Vectors<kLanes>::Real)((Bits)x[i] & kMagnitude);
+  }
+  double all = 0.0;
+  for (int lane = 0; lane < kLanes; ++lane) all += sum[lane];
+  if (__builtin_expect(all < mixloop_sincos::kLimit, 1)) return;
+  for (int i = 0; i < kCount; ++i) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      double s, c;
+      mixloop_sincos::sincos(x[i][lane], &s, &c);
+      sine[i][lane] = s;
+      cosine[i][lane] = c;
+    }
   }
 }
 
 }  // namespace mixloop_lanes
 
 namespace mixloop_sincos {
-MIXLOOP_INLINE void sincos(mixloop_lanes::Lanes4 x, mixloop_lanes::Lanes4* s, mixloop_lanes::Lanes4* c) {
-  mixloop_lanes::sincos<4>(x, s, c);
+template <int kCount>
+MIXLOOP_INLINE void sincos_of(const mixloop_lanes::Lanes4 (&x)[kCount], mixloop_lanes::Lanes4 (&sine)[kCount],
+                              mixloop_lanes::Lanes4 (&cosine)[kCount]) {
+  mixloop_lanes::sincos_of<4, kCount>(x, sine, cosine);
 }
-MIXLOOP_INLINE void sincos(mixloop_lanes::Lanes8 x, mixloop_lanes::Lanes8* s, mixloop_lanes::Lanes8* c) {
-  mixloop_lanes::sincos<8>(x, s, c);
-}
-template <int kCount, class Lanes>
-MIXLOOP_INLINE void sincos_of(const Lanes (&x)[kCount], Lanes (&sine)[kCount], Lanes (&cosine)[kCount]) {
-  for (int i = 0; i < kCount; ++i) sincos(x[i], sine + i, cosine + i);
+template <int kCount>
+MIXLOOP_INLINE void sincos_of(const mixloop_lanes::Lanes8 (&x)[kCount], mixloop_lanes::Lanes8 (&sine)[kCount],
+                              mixloop_lanes::Lanes8 (&cosine)[kCount]) {
+  mixloop_lanes::sincos_of<8, kCount>(x, sine, cosine);
 }
 }  // namespace mixloop_sincos
 
