@@ -62,13 +62,14 @@ void follow_the_session(benchmark::State& loop) {
 }
 BENCHMARK(follow_the_session);
 
-// The one system call that ours has and the bare exchange has not: a ppoll before LCM's read, for deadlines and
-// signals.
+// The one system call that ours has and the bare exchange has not: a ppoll before LCM's read, for deadlines
+// and signals.
 void poll_what_is_ready(benchmark::State& loop) {
   const int ready = eventfd(1, 0), stop = eventfd(0, 0);
   const timespec timeout{.tv_sec = 1, .tv_nsec = 0};
   for (auto _ : loop) {
-    pollfd fds[] = {{.fd = ready, .events = POLLIN, .revents = 0}, {.fd = stop, .events = POLLIN, .revents = 0}};
+    pollfd fds[] = {{.fd = ready, .events = POLLIN, .revents = 0},
+                    {.fd = stop, .events = POLLIN, .revents = 0}};
     benchmark::DoNotOptimize(ppoll(fds, 2, &timeout, nullptr));
   }
   close(ready);

@@ -49,6 +49,22 @@ nlohmann::json finish_all(std::vector<ChildProcess>& children, const std::vector
   return reports;
 }
 
+/// Waits until the plant has come to a tick: that all three are up and at work.
+void wait_for_tick(std::int64_t tick) {
+  struct Watch {
+    std::int64_t latest = -1;
+    void take(Bytes bytes) {
+      if (const auto header = peek(bytes)) latest = header->seq;
+    }
+  } watch;
+  Bus bus;
+  const StopSwitch never;
+  bus.subscribe<&Watch::take>(bus.channel("STATE"), &watch);
+  const Instant limit = now() + kLimit;
+  while (watch.latest < tick && now() < limit) bus.wait(limit, never);
+  EXPECT_GE(watch.latest, tick);
+}
+
 class StartOrder : public testing::TestWithParam<std::vector<std::string>> {};
 
 TEST_P(StartOrder, doesnt_change_what_the_plant_is_told) {
@@ -193,7 +209,7 @@ TEST(Lockstep, allocates_nothing_per_tick_in_any_of_the_three) {
 TEST(Lockstep, ends_everywhere_when_the_plant_is_interrupted) {
   std::vector<ChildProcess> children;
   for (const std::string& role : kRoles) children.push_back(start(role, 1'000'000, {}, {"0", "1"}));
-  std::this_thread::sleep_for(300ms);
+  wait_for_tick(100);
   children[0].signal(SIGINT);
   EXPECT_EQ(finish(children[0], "plant", 130).value("ending", ""), "interrupted");
   EXPECT_EQ(finish(children[1], "controller").value("ending", ""), "interrupted");
@@ -203,7 +219,7 @@ TEST(Lockstep, ends_everywhere_when_the_plant_is_interrupted) {
 TEST(Lockstep, goes_on_with_a_controller_that_replaces_a_killed_one) {
   std::vector<ChildProcess> children;
   for (const std::string& role : kRoles) children.push_back(start(role, kTicks, {}, {"0", "1"}));
-  std::this_thread::sleep_for(400ms);
+  wait_for_tick(100);
   children[1].signal(SIGKILL);
   EXPECT_EQ(children[1].wait(5s), 128 + SIGKILL);
   children[1] = start("controller");
