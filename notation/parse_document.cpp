@@ -239,8 +239,10 @@ NodePtr parse_document(std::string_view text, const std::string& file) {
       throw InputError("invalid_yaml", builder.root()->place, "found a second document; expected one");
     return root;
   } catch (const YAML::Exception& error) {
+    // yaml-cpp quotes the character at fault, at the end of a file a NUL: what follows it is left out.
+    const std::string reason = error.msg.substr(0, first_non_text(error.msg).value_or(error.msg.size()));
     throw InputError("invalid_yaml", {file, error.mark.line + 1, error.mark.column + 1},
-                     "no valid YAML: " + error.msg);
+                     "no valid YAML: " + reason);
   }
 }
 
