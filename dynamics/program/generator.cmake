@@ -8,7 +8,9 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/graph.cpp
     symbolic/harmonic.cpp
     symbolic/harmonic_energy.cpp
+    symbolic/harmonic_equations.cpp
     symbolic/harmonic_form.cpp
+    symbolic/harmonic_functions.cpp
     symbolic/harmonic_sum.cpp
     symbolic/literal.cpp
     symbolic/polynomial.cpp
