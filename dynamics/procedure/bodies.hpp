@@ -56,6 +56,25 @@ void external_loads(const Model<T>& model, const T& t, Workspace<T>& ws) {
   }
 }
 
+/// Springs and viscous friction at the coordinates, as what the motion takes: k (q - rest) + d q', m.
+template <class T, class Out>
+void add_coordinate_loads(const Model<T>& model, const Vec<T>& q, const Vec<T>& qd, Out& a) {
+  for (const auto& load : model.coordinate_loads)
+    a[load.coordinate] +=
+        load.stiffness * (q[load.coordinate] - load.rest) + load.damping * qd[load.coordinate];
+}
+
+/// What the springs hold: sum k/2 (q - rest)^2.
+template <class T>
+T spring_potential(const Model<T>& model, const Vec<T>& q) {
+  T sum(0);
+  for (const auto& load : model.coordinate_loads) {
+    const T stretch = q[load.coordinate] - load.rest;
+    sum += load.stiffness * stretch * stretch / T(2);
+  }
+  return sum;
+}
+
 /// (26), (27): adds every body's -[AD_i]^T into ws.a (m): velocity products, gravity, external loads (21).
 template <class T>
 void dynamic_vector(const Model<T>& model, const T& t, Workspace<T>& ws) {
@@ -84,6 +103,7 @@ void dynamic_vector(const Model<T>& model, const T& t, Workspace<T>& ws) {
     }
   }
   external_loads(model, t, ws);
+  add_coordinate_loads(model, ws.q, ws.qd, ws.a);
 }
 
 }  // namespace mixloop

@@ -35,12 +35,17 @@ struct Model {
     int frame = 0;
     Vec3<T> point;
   };
+  struct CoordinateLoad {
+    int coordinate = 0;
+    T stiffness{0}, rest{0}, damping{0};
+  };
 
   std::shared_ptr<const Scene> scene;
   std::vector<T> parameters;
   std::vector<Link> links;  ///< link i makes frame i + 1
   std::vector<Body> bodies;
   std::vector<Load> loads;
+  std::vector<CoordinateLoad> coordinate_loads;
   Vec3<T> gravity;
   Vec3<T> end_effector_point;
 
@@ -137,6 +142,9 @@ Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> param
     model.bodies.push_back(std::move(made));
   }
   for (const auto& load : scene->loads) model.loads.push_back({load.frame, vector(load.point)});
+  for (const auto& load : scene->coordinate_loads)
+    model.coordinate_loads.push_back(
+        {load.coordinate, number(load.stiffness), number(load.rest), number(load.damping)});
   model.gravity = vector(scene->gravity);
   model.end_effector_point = vector(scene->end_effector.point);
   return model;

@@ -112,7 +112,7 @@ const EndEffectorState<T>& end_effector(const Model<T>& model, std::span<const T
   return out;
 }
 
-/// Kinetic energy 1/2 Q'^T S Q' and the potential of gravity.
+/// Kinetic energy 1/2 Q'^T S Q' and the potential of gravity and springs.
 template <class T>
 Energy<T> energy(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t,
                  Workspace<T>& ws) {
@@ -128,6 +128,7 @@ Energy<T> energy(const Model<T>& model, std::span<const T> psi, std::span<const 
         at_point<T>(ws.frames[static_cast<std::size_t>(body.frame)].T_0, body.center_of_mass);
     result.potential -= body.mass * model.gravity.dot(place);
   }
+  result.potential += spring_potential(model, ws.q);
   return result;
 }
 

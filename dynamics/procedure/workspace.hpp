@@ -17,7 +17,7 @@ struct EndEffectorState {
 template <class T>
 struct Energy {
   T kinetic{0};
-  T potential{0};  ///< of gravity, zero at the inertial frame's origin
+  T potential{0};  ///< of gravity, zero at the inertial frame's origin, and of springs
 };
 
 /// What an evaluation of the procedure writes; sized once, for one model.

@@ -45,6 +45,10 @@ std::string canonical_text(const Scene& scene) {
     add(text, load.force);
     add(text, load.moment);
   }
+  for (const auto& load : scene.coordinate_loads) {
+    text += fmt::format("coordinate load {}\n", load.coordinate);
+    for (const auto* formula : {&load.stiffness, &load.rest, &load.damping}) add(text, *formula);
+  }
   text += "gravity\n";
   add(text, scene.gravity);
   text +=

@@ -68,6 +68,19 @@ void check_body(const Scene::Body& body, const ValuesAtHome& values) {
                     in_quotes(body.name), principal[0]));
 }
 
+void check_coordinate_load(const Scene::CoordinateLoad& load, const ValuesAtHome& values) {
+  values.of(load.rest, "the spring's rest position");
+  const auto check = [&](const Formula& formula, const char* what) {
+    const double value = values.of(formula, what);
+    if (value < 0)
+      throw InputError(
+          "negative_stiffness", formula.place,
+          fmt::format("{} is {:.6g}, which drives the coordinate away; expected 0 or more", what, value));
+  };
+  check(load.stiffness, "the stiffness");
+  check(load.damping, "the damping");
+}
+
 }  // namespace
 
 void check_physical(const Scene& scene, const std::vector<double>& parameters) {
@@ -81,6 +94,7 @@ void check_physical(const Scene& scene, const std::vector<double>& parameters) {
     values.check(load.force, "the load's force");
     values.check(load.moment, "the load's moment");
   }
+  for (const auto& load : scene.coordinate_loads) check_coordinate_load(load, values);
   values.check(scene.gravity, "gravity");
   values.check(scene.end_effector.point, "the end effector's point");
   for (const auto& singularity : scene.singularities)

@@ -42,6 +42,18 @@ int SceneDraft::frame(const Mapping& entry) const {
   return found->second;
 }
 
+int SceneDraft::coordinate(const Mapping& entry) const {
+  const NodePtr node = entry.at("coordinate");
+  const std::string& name = text_of(*node, "a coordinate's name");
+  const auto found = coordinate_index.find(name);
+  if (found != coordinate_index.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& coordinate : scene.coordinates) names.push_back(coordinate.name);
+  throw InputError(
+      "undefined_symbol", node->place,
+      entry.what() + " acts on " + in_quotes(name) + ", which is no coordinate" + suggestion(name, names));
+}
+
 const Node* section(const Mapping& root, const char* key) {
   const NodePtr node = root.find(key);
   if (!node || node->kind == Node::Kind::kEmpty) return nullptr;

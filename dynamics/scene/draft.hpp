@@ -28,6 +28,8 @@ struct SceneDraft {
                                 const Scope& scope);
   /// The frame that the entry names under `frame`.
   int frame(const Mapping& entry) const;
+  /// The coordinate that the entry names under `coordinate`.
+  int coordinate(const Mapping& entry) const;
 };
 
 /// The mapping at `key` of a scene, or null where it is absent or empty; throws InputError for anything else.

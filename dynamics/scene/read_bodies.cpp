@@ -19,6 +19,34 @@ void read_inertia(const NodePtr& node, Scene::Body& body, SceneDraft& draft) {
   }
 }
 
+Scene::Load load_at_point(const NodePtr& item, SceneDraft& draft, const Scope& timed) {
+  const Mapping entry(item, "a load", {"frame", "point", "force", "moment"});
+  Scene::Load load;
+  load.frame = draft.frame(entry);
+  load.point = draft.vector(entry.find("point"), kLength, "the point", draft.fixed);
+  load.force = draft.vector(entry.find("force"), kForce, "the force", timed);
+  load.moment = draft.vector(entry.find("moment"), kMoment, "the moment", timed);
+  return load;
+}
+
+Scene::CoordinateLoad load_at_coordinate(const NodePtr& item, SceneDraft& draft) {
+  const Mapping entry(item, "a load at a coordinate", {"coordinate", "stiffness", "rest", "damping"});
+  Scene::CoordinateLoad load;
+  load.coordinate = draft.coordinate(entry);
+  const Formula& constraint = draft.scene.coordinates[static_cast<std::size_t>(load.coordinate)].constraint;
+  const bool slides = constraint.dimension.same_powers(kLength);
+  const Dimension position = slides ? kLength : kPure, effort = slides ? kForce : kMoment;
+  const auto number = [&](const char* key, const Dimension& wanted) {
+    const NodePtr node = entry.find(key);
+    return node ? draft.formula(*node, wanted, fmt::format("the {}", key), draft.fixed)
+                : constant_formula(0, wanted, item->place);
+  };
+  load.stiffness = number("stiffness", effort / position);
+  load.rest = number("rest", position);
+  load.damping = number("damping", effort / position * kTime);
+  return load;
+}
+
 }  // namespace
 
 void read_bodies(const Mapping& root, SceneDraft& draft) {
@@ -45,13 +73,10 @@ void read_loads(const Mapping& root, SceneDraft& draft) {
   Scope timed = draft.fixed;
   timed.define_symbol("t", Symbols::kTime, kTime, {});
   for (const auto& item : items_within(node, 0, kMostLoads, "the loads")) {
-    const Mapping entry(item, "a load", {"frame", "point", "force", "moment"});
-    Scene::Load load;
-    load.frame = draft.frame(entry);
-    load.point = draft.vector(entry.find("point"), kLength, "the point", draft.fixed);
-    load.force = draft.vector(entry.find("force"), kForce, "the force", timed);
-    load.moment = draft.vector(entry.find("moment"), kMoment, "the moment", timed);
-    draft.scene.loads.push_back(std::move(load));
+    if (find_entry(*item, "coordinate"))
+      draft.scene.coordinate_loads.push_back(load_at_coordinate(item, draft));
+    else
+      draft.scene.loads.push_back(load_at_point(item, draft, timed));
   }
 }
 

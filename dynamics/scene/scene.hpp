@@ -62,6 +62,12 @@ struct Scene {
     std::array<Formula, 3> point, force, moment;
   };
 
+  /// A spring and viscous friction at a coordinate: the force (or moment) -stiffness (q - rest) - damping q'.
+  struct CoordinateLoad {
+    int coordinate = 0;
+    Formula stiffness, rest, damping;  ///< N m/rad, rad, N m s/rad; of a displacement N/m, m, N s/m
+  };
+
   struct EndEffector {
     int frame = 0;
     std::array<Formula, 3> point;
@@ -84,6 +90,7 @@ struct Scene {
   std::vector<std::string> frames;    ///< names; frame 0 is the ground
   std::vector<Body> bodies;
   std::vector<Load> loads;
+  std::vector<CoordinateLoad> coordinate_loads;
   std::array<Formula, 3> gravity;  ///< m/s^2, inertial axes
   EndEffector end_effector;
   std::vector<double> home;  ///< psi that picks the branch of the inverse kinematics
@@ -91,6 +98,8 @@ struct Scene {
   std::vector<std::string> warnings;  ///< `file:line:column: what`, e.g. a triangle inequality
   std::string canonical;              ///< a text equal for equal mechanisms, to hash
 
+  /// Whether anything but inertia, gravity and the motors acts.
+  bool is_loaded() const { return !loads.empty() || !coordinate_loads.empty(); }
   int n() const { return static_cast<int>(motors.size()); }
   int m() const { return static_cast<int>(coordinates.size()); }
   std::vector<double> default_parameters() const;

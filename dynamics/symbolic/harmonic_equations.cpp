@@ -19,8 +19,8 @@ class HarmonicTracer final : public Tracer {
         form_(found_->forms[writing.basis]),
         writing_(writing),
         n_(scene.n()),
-        loads_(loads_of(scene)),
         written_(found_, writing, in_.psi, std::move(atoms)) {
+    record_loads(scene);
     functions();
   }
 
@@ -54,7 +54,7 @@ class HarmonicTracer final : public Tracer {
     const ExpressionVector y = times(form_.B, in_.psid);
     Energy<Expression> energy;
     energy.kinetic = Expression(0.5) * y.dot(N_.lazyProduct(y));
-    energy.potential = written_.value(form_.potential);
+    energy.potential = written_.value(form_.potential) + springs_;
     return energy;
   }
 
@@ -67,12 +67,15 @@ class HarmonicTracer final : public Tracer {
 
   ExpressionVector from_basis(const ExpressionVector& x) const { return times(form_.B.transpose(), x); }
 
-  // External loads do not follow from an energy: recorded from the procedure, without the bodies.
-  ExpressionVector loads_of(const Scene& scene) const {
-    if (scene.loads.empty()) return ExpressionVector::Constant(n_, Expression(0.0));
-    auto unloaded = std::make_shared<Scene>(scene);
-    unloaded->bodies.clear();
-    return literal_tracer(unloaded)->bias();
+  // Loads are recorded from the procedure, without the bodies.
+  void record_loads(const Scene& scene) {
+    loads_ = ExpressionVector::Constant(n_, Expression(0.0));
+    if (!scene.is_loaded()) return;
+    auto massless = std::make_shared<Scene>(scene);
+    massless->bodies.clear();
+    const auto tracer = literal_tracer(massless);
+    loads_ = tracer->bias();
+    springs_ = tracer->energy().potential;
   }
 
   void functions() {
@@ -206,6 +209,7 @@ class HarmonicTracer final : public Tracer {
   Writing writing_;
   int n_;
   ExpressionVector loads_;
+  Expression springs_ = 0.0;  // their potential
   HarmonicFunctions written_;
   ExpressionMatrix N_;
   std::vector<Function> functions_;

@@ -4,8 +4,8 @@
 //
 // A transform turns about z by theta into the frame "mid", where the way to the next origin is
 // (a, 0, s) whatever the angle is, then about x by the constant alpha.
+#include "dynamics/procedure/bodies.hpp"
 #include "dynamics/procedure/constraints.hpp"
-#include "dynamics/procedure/model.hpp"
 #include "dynamics/symbolic/tracer.hpp"
 
 namespace mixloop {
@@ -235,6 +235,7 @@ class RecursiveTracer final : public Tracer {
       wrench[parent(i)].force += below.force;
       wrench[parent(i)].moment += below.moment;
     }
+    add_coordinate_loads<E>(model_, workspace_.q, workspace_.qd, force);
     return force;
   }
 
@@ -297,7 +298,7 @@ class RecursiveTracer final : public Tracer {
       gravity[i + 1] = links_[i].alpha.into_x(mid);
       potential -= inertias_[i + 1].mass * height[i + 1] + inertias_[i + 1].moment.dot(gravity[i + 1]);
     }
-    return potential;
+    return potential + spring_potential<E>(model_, workspace_.q);
   }
 
   TracedInputs in_;

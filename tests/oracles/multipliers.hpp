@@ -51,12 +51,20 @@ struct TreeLoad {
   Vector3<T> moment = Vector3<T>::Zero();
 };
 
+/// The effort -stiffness (q - rest) - damping q' on a coordinate.
+template <class T>
+struct TreeSpring {
+  int coordinate = 0;
+  T stiffness{}, rest{}, damping{};
+};
+
 template <class T>
 struct Tree {
   int coordinates = 0;
   std::vector<TreeFrame<T>> frames;
   std::vector<TreeBody<T>> bodies;
   std::vector<TreeLoad<T>> loads;
+  std::vector<TreeSpring<T>> springs;
   Vector3<T> gravity = Vector3<T>::Zero();
 };
 
@@ -136,6 +144,9 @@ VectorX<T> tree_inverse_dynamics(const Tree<T>& tree, const VectorX<T>& q, const
     moment[load.frame] -= m.R * load.moment + point.cross(load.force);
   }
   VectorX<T> effort = VectorX<T>::Zero(tree.coordinates);
+  for (const TreeSpring<T>& spring : tree.springs)
+    effort[spring.coordinate] +=
+        spring.stiffness * (q[spring.coordinate] - spring.rest) + spring.damping * qd[spring.coordinate];
   for (std::size_t i = count; i-- > 0;) {
     const TreeFrame<T>& frame = tree.frames[i];
     const FrameMotion<T> parent = frame.parent < 0 ? FrameMotion<T>{} : motions[frame.parent];
@@ -152,11 +163,12 @@ VectorX<T> tree_inverse_dynamics(const Tree<T>& tree, const VectorX<T>& q, const
   return effort;
 }
 
-/// The tree's mass matrix, one inverse dynamics a column, at rest and without gravity or loads.
+/// The tree's mass matrix, one inverse dynamics a column, at rest and without gravity, loads or springs.
 template <class T>
 MatrixX<T> tree_mass_matrix(Tree<T> tree, const VectorX<T>& q) {
   tree.gravity.setZero();
   tree.loads.clear();
+  tree.springs.clear();
   MatrixX<T> M(tree.coordinates, tree.coordinates);
   const VectorX<T> rest = VectorX<T>::Zero(tree.coordinates);
   for (int j = 0; j < tree.coordinates; ++j)

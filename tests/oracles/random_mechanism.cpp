@@ -114,6 +114,14 @@ RandomMechanism::Load RandomMechanism::random_load(MechanismKind kind, Dice& dic
   return load;
 }
 
+RandomMechanism::Spring RandomMechanism::random_spring(MechanismKind kind, Dice& dice) const {
+  Spring spring;
+  spring.coordinate = dice.below(m());
+  if (kind.springs) spring.stiffness = dice.between(0, 20), spring.rest = dice.between(-1, 1);
+  if (kind.friction) spring.damping = dice.between(0, 5);
+  return spring;
+}
+
 RandomMechanism::RandomMechanism(std::uint64_t seed, MechanismKind kind) {
   Dice dice(seed);
   n_ = 1 + dice.below(4);
@@ -126,6 +134,8 @@ RandomMechanism::RandomMechanism(std::uint64_t seed, MechanismKind kind) {
   }
   for (int i = kind.loads ? 1 + dice.below(2) : 0; i > 0; --i) loads_.push_back(random_load(kind, dice));
   for (Dyadic& g : gravity_) g = dice.between(-10, 10);
+  for (int i = kind.springs || kind.friction ? 1 + dice.below(2) : 0; i > 0; --i)
+    springs_.push_back(random_spring(kind, dice));
 }
 
 std::string RandomMechanism::scene_text() const {
@@ -175,13 +185,17 @@ std::string RandomMechanism::bodies_text() const {
 }
 
 std::string RandomMechanism::loads_text() const {
-  std::string text = loads_.empty() ? "" : "loads:\n";
+  std::string text = loads_.empty() && springs_.empty() ? "" : "loads:\n";
   for (const Load& load : loads_) {
     const std::string strength = " * cos(" + load.tempo.text() + " * t / (1 s))";
     text += "  - {frame: " + frame_name(load.frame) + ", point: " + list(load.point) +
             ", force: " + list(load.force, " * (1 N)" + strength) +
             ", moment: " + list(load.moment, " * (1 N m)" + strength) + "}\n";
   }
+  for (const Spring& spring : springs_)
+    text += "  - {coordinate: q" + std::to_string(spring.coordinate + 1) + ", stiffness: \"" +
+            spring.stiffness.text() + "\", rest: \"" + spring.rest.text() + "\", damping: \"" +
+            spring.damping.text() + "\"}\n";
   return text;
 }
 

@@ -26,6 +26,8 @@ struct MechanismKind {
   bool nonlinear = false;  ///< constraints in products and sines of the motors
   bool timed = false;      ///< constraints and loads that depend on time
   bool loads = false;
+  bool springs = false;
+  bool friction = false;  ///< viscous
 };
 
 /// One mechanism: n motors, a tree with a body on each frame, and for each coordinate
@@ -66,10 +68,16 @@ class RandomMechanism {
     Dyadic point[3], force[3], moment[3], tempo;  // all of it times cos(tempo t)
   };
 
+  struct Spring {
+    int coordinate = 0;
+    Dyadic stiffness, rest, damping;
+  };
+
   Coordinate random_coordinate(int j, MechanismKind kind, Dice& dice) const;
   Frame random_frame(int i, Dice& dice) const;
   static Body random_body(Dice& dice);
   Load random_load(MechanismKind kind, Dice& dice) const;
+  Spring random_spring(MechanismKind kind, Dice& dice) const;
   std::string transforms_text() const;
   std::string bodies_text() const;
   std::string loads_text() const;
@@ -79,6 +87,7 @@ class RandomMechanism {
   std::vector<Frame> frames_;
   std::vector<Body> bodies_;
   std::vector<Load> loads_;
+  std::vector<Spring> springs_;
   Dyadic gravity_[3];
 };
 
@@ -109,6 +118,9 @@ Tree<T> RandomMechanism::tree(const T& t) const {
     tree.loads.push_back(
         {load.frame, vector(load.point), vector(load.force) * strength, vector(load.moment) * strength});
   }
+  for (const Spring& spring : springs_)
+    tree.springs.push_back(
+        {spring.coordinate, spring.stiffness.as<T>(), spring.rest.as<T>(), spring.damping.as<T>()});
   return tree;
 }
 

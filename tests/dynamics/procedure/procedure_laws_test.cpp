@@ -25,8 +25,8 @@ constexpr std::uint64_t kSeeds = 60;
 #else
 constexpr std::uint64_t kSeeds = 10;  // wide floats are slow unoptimised
 #endif
-constexpr MechanismKind kLinear{}, kNonlinear{.nonlinear = true},
-    kEverything{.nonlinear = true, .timed = true, .loads = true};
+constexpr MechanismKind kLinear{}, kNonlinear{.nonlinear = true}, kSprung{.nonlinear = true, .springs = true},
+    kEverything{.nonlinear = true, .timed = true, .loads = true, .springs = true, .friction = true};
 
 Scene scene_of(const RandomMechanism& mechanism) {
   return load_scene(parse_document(mechanism.scene_text(), "random.yaml"));
@@ -138,55 +138,57 @@ TEST(RandomMechanisms, MassRateLessTwiceCoriolisIsSkew) {
 }
 
 TEST(RandomMechanisms, MotorPowerIsTheRateOfEnergy) {
-  for_random_mechanisms({kLinear, kNonlinear}, [](const auto&, const Scene& scene, const State& state) {
-    const WideState s(state);
-    Procedure<Wide> evaluation(scene);
-    const WideVector psidd = evaluation.forward(s.psi, s.psid, s.input);
-    const auto total = [&](const Wide& dt) {
-      const auto E = evaluation.energies(s.psi + dt * s.psid + dt * dt / 2 * psidd, s.psid + dt * psidd);
-      return Wide(E.kinetic + E.potential);
-    };
-    const Wide step(1e-10), rate = (total(step) - total(-step)) / (2 * step);
-    EXPECT_LT(std::abs(static_cast<double>(Wide(rate - s.input.dot(s.psid)))),
-              1e-12 * (1 + static_cast<double>(psidd.norm())));
-  });
+  for_random_mechanisms(
+      {kLinear, kNonlinear, kSprung}, [](const auto&, const Scene& scene, const State& state) {
+        const WideState s(state);
+        Procedure<Wide> evaluation(scene);
+        const WideVector psidd = evaluation.forward(s.psi, s.psid, s.input);
+        const auto total = [&](const Wide& dt) {
+          const auto E = evaluation.energies(s.psi + dt * s.psid + dt * dt / 2 * psidd, s.psid + dt * psidd);
+          return Wide(E.kinetic + E.potential);
+        };
+        const Wide step(1e-10), rate = (total(step) - total(-step)) / (2 * step);
+        EXPECT_LT(std::abs(static_cast<double>(Wide(rate - s.input.dot(s.psid)))),
+                  1e-12 * (1 + static_cast<double>(psidd.norm())));
+      });
 }
 
 // Lagrange's equations from the energies alone, mixed and time derivatives of the constraints included:
 // d/dt dT/dpsi' - dT/dpsi + dV/dpsi = tau. Differences of differences, step 1e-8: error 1e-16, noise 1e-18.
 TEST(RandomMechanisms, ObeyLagrangesEquationsWithTimeDependentConstraints) {
-  for_random_mechanisms({MechanismKind{.nonlinear = true, .timed = true}}, [](const auto& mechanism,
-                                                                              const Scene& scene,
-                                                                              const State& state) {
-    const int n = mechanism.n();
-    const WideState s(state);
-    Procedure<Wide> evaluation(scene);
-    const Wide step(1e-8);
-    const auto kinetic = [&](const WideVector& psi, const WideVector& psid, const Wide& t) {
-      return evaluation.energies(psi, psid, t).kinetic;
-    };
-    const auto momentum = [&](const WideVector& psi, const WideVector& psid, const Wide& t) {
-      WideVector p(n);
-      for (int i = 0; i < n; ++i) {
-        const WideVector e = WideVector::Unit(n, i);  // T is quadratic in psi': the difference is exact
-        p[i] = (kinetic(psi, psid + e, t) - kinetic(psi, psid - e, t)) / 2;
-      }
-      return p;
-    };
-    const WideVector psidd = s.input / 4;
-    const auto momentum_after = [&](const Wide& dt) {
-      return WideVector(momentum(s.psi + dt * s.psid + dt * dt / 2 * psidd, s.psid + dt * psidd, s.t + dt));
-    };
-    WideVector tau = (momentum_after(step) - momentum_after(-step)) / (2 * step);
-    for (int i = 0; i < n; ++i) {
-      const WideVector e = step * WideVector::Unit(n, i);
-      const auto ahead = evaluation.energies(s.psi + e, s.psid, s.t),
-                 behind = evaluation.energies(s.psi - e, s.psid, s.t);
-      tau[i] -= (ahead.kinetic - behind.kinetic - ahead.potential + behind.potential) / (2 * step);
-    }
-    EXPECT_LT(distance(evaluation.inverse(s.psi, s.psid, psidd, s.t), tau),
-              1e-11 * (1 + static_cast<double>(tau.norm())));
-  });
+  for_random_mechanisms(
+      {MechanismKind{.nonlinear = true, .timed = true, .springs = true}},
+      [](const auto& mechanism, const Scene& scene, const State& state) {
+        const int n = mechanism.n();
+        const WideState s(state);
+        Procedure<Wide> evaluation(scene);
+        const Wide step(1e-8);
+        const auto kinetic = [&](const WideVector& psi, const WideVector& psid, const Wide& t) {
+          return evaluation.energies(psi, psid, t).kinetic;
+        };
+        const auto momentum = [&](const WideVector& psi, const WideVector& psid, const Wide& t) {
+          WideVector p(n);
+          for (int i = 0; i < n; ++i) {
+            const WideVector e = WideVector::Unit(n, i);  // T is quadratic in psi': the difference is exact
+            p[i] = (kinetic(psi, psid + e, t) - kinetic(psi, psid - e, t)) / 2;
+          }
+          return p;
+        };
+        const WideVector psidd = s.input / 4;
+        const auto momentum_after = [&](const Wide& dt) {
+          return WideVector(
+              momentum(s.psi + dt * s.psid + dt * dt / 2 * psidd, s.psid + dt * psidd, s.t + dt));
+        };
+        WideVector tau = (momentum_after(step) - momentum_after(-step)) / (2 * step);
+        for (int i = 0; i < n; ++i) {
+          const WideVector e = step * WideVector::Unit(n, i);
+          const auto ahead = evaluation.energies(s.psi + e, s.psid, s.t),
+                     behind = evaluation.energies(s.psi - e, s.psid, s.t);
+          tau[i] -= (ahead.kinetic - behind.kinetic - ahead.potential + behind.potential) / (2 * step);
+        }
+        EXPECT_LT(distance(evaluation.inverse(s.psi, s.psid, psidd, s.t), tau),
+                  1e-11 * (1 + static_cast<double>(tau.norm())));
+      });
 }
 
 // Jacobian, velocity and acceleration are the wide-float differences of position (step 1e-10).

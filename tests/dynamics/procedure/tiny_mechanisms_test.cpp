@@ -144,5 +144,36 @@ end_effector: {frame: arm, axes: [y]}
   EXPECT_DOUBLE_EQ(arm.forward(one(0), one(0), one(0))[0], 20);
 }
 
+// A spring of 8 N m/rad, 2 rad from its rest, and friction of 3 N m s/rad at 5 rad/s, behind a gear of 1/2:
+// h = (8 * 2 + 3 * 5) / 2; the spring holds 8 * 2^2 / 2 J.
+TEST(TinyMechanisms, SpringsAndFrictionActOnTheirCoordinates) {
+  auto arm = mechanism(R"(
+motors: [psi]
+coordinates: [q]
+constraints: {q: psi / 2}
+transforms: [{from: 0, to: arm, theta: q, a: 1 m}]
+bodies: [{frame: arm, mass: 4 kg}]
+loads: [{coordinate: q, stiffness: 8 N m/rad, rest: 1 rad, damping: 3 N m s/rad}]
+end_effector: {frame: arm, axes: [y]}
+)");
+  EXPECT_DOUBLE_EQ(arm.h(one(6), one(10))[0], 15.5);
+  EXPECT_DOUBLE_EQ(arm.forward(one(6), one(10), one(0))[0], -15.5);
+  EXPECT_DOUBLE_EQ(arm.energies(one(6), one(0)).potential, 16);
+}
+
+// The same of a displacement: 8 N/m, 2 m from its rest, 3 N s/m at 5 m/s.
+TEST(TinyMechanisms, SpringsActOnDisplacements) {
+  auto slider = mechanism(R"(
+motors: {psi: linear}
+coordinates: [lift]
+constraints: {lift: psi}
+transforms: [{from: 0, to: slider, s: lift}]
+bodies: [{frame: slider, mass: 1 kg}]
+loads: [{coordinate: lift, stiffness: 8 N/m, rest: 1 m, damping: 3 N s/m}]
+end_effector: {frame: slider, axes: [z]}
+)");
+  EXPECT_DOUBLE_EQ(slider.h(one(3), one(5))[0], 31);
+}
+
 }  // namespace
 }  // namespace mixloop

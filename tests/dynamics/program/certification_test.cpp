@@ -62,7 +62,8 @@ TEST(Certification, EveryShippedSceneIsAsExactAsTheProcedure) {
 
 TEST(Certification, RandomMechanismsAreAsExactAsTheProcedure) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const oracle::MechanismKind kind{.nonlinear = seed % 3 == 0, .timed = seed % 4 == 0, .loads = seed % 2 == 0};
+    const oracle::MechanismKind kind{.nonlinear = seed % 3 == 0, .timed = seed % 4 == 0, .loads = seed % 2 == 0,
+                                     .springs = seed % 2 == 0, .friction = seed % 4 == 2};
     const oracle::RandomMechanism mechanism(seed, kind);
     const auto scene = std::make_shared<const Scene>(load_scene(parse_document(mechanism.scene_text(), "random")));
     certify(scene, fmt::format("random {}", seed), 2, seed);

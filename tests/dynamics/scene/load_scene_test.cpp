@@ -36,6 +36,7 @@ bodies:
     inertia: {xx: 1 kg m^2, yy: 2 kg m^2, zz: 3 kg m^2}
 loads:
   - {frame: 2, point: [0, 0, 1 cm], force: [10 N * sin(t / 1 s), 0, 0], moment: [0, 0, 1 N m]}
+  - {coordinate: q2, stiffness: 8 N/mm, rest: 1 cm}
 gravity: [0, 0, -9.81 m/s^2]
 end_effector: {frame: 2, point: [0, 0, 0], axes: [x, y]}
 home: {psi1: 120 deg}
@@ -81,6 +82,11 @@ TEST(LoadScene, ReadsEverySection) {
   EXPECT_EQ(number(scene.bodies[0].inertia[2]), 0);
   EXPECT_EQ(number(scene.bodies[1].inertia[2]), 3);
   EXPECT_EQ(scene.loads[0].frame, 2);
+  ASSERT_EQ(scene.coordinate_loads.size(), 1U);
+  EXPECT_EQ(scene.coordinate_loads[0].coordinate, 1);
+  EXPECT_EQ(number(scene.coordinate_loads[0].stiffness), 8000);
+  EXPECT_EQ(number(scene.coordinate_loads[0].rest), 0.01);
+  EXPECT_EQ(number(scene.coordinate_loads[0].damping), 0);
   EXPECT_EQ(number(scene.gravity[2]), -9.81);
   EXPECT_EQ(scene.end_effector.axes, (std::vector<int>{0, 1}));
   EXPECT_DOUBLE_EQ(scene.home[0], 120 * std::numbers::pi / 180);
@@ -384,6 +390,13 @@ INSTANTIATE_TEST_SUITE_P(
             "NegativeDefaultMass",
             with("bob: 3 kg", "bob: -3 kg").insert(with("bob: 3 kg", "bob: -3 kg").find("bob, center"), "@"),
             "negative_mass", "'weight' has a mass of -3 kg"},
+        BadInput{"NegativeStiffness", with("8 N/mm", "@-8 N/mm"), "negative_stiffness",
+                 "the stiffness is -8000, which drives the coordinate away; expected 0 or more"},
+        BadInput{"StiffnessOfAnAngle", with("8 N/mm", "@8 N m"), "wrong_dimension", "the stiffness"},
+        BadInput{"SpringOnNothing", with("coordinate: q2", "coordinate: @q3"), "undefined_symbol",
+                 "acts on 'q3', which is no coordinate"},
+        BadInput{"SpringAtAPoint", with("coordinate: q2", "coordinate: q2, @point: [0, 0, 0]"), "unknown_key",
+                 "unknown key 'point' in a load at a coordinate"},
         BadInput{"NegativeMoment", with("xx: 1 kg m^2", "xx: @-1 kg m^2"), "impossible_inertia",
                  "a principal moment of inertia of -1 kg m^2"},
         BadInput{"ProductTooLarge",
