@@ -12,5 +12,6 @@ void add_track_command(CLI::App& app, int& status);
 void add_dynamics_command(CLI::App& app, int& status);
 void add_explain_command(CLI::App& app, int& status);
 void add_compile_command(CLI::App& app, int& status);
+void add_stability_command(CLI::App& app, int& status);
 
 }  // namespace mixloop

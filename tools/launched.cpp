@@ -19,6 +19,7 @@
 #include "runtime/session.hpp"
 #include "tools/children.hpp"
 #include "tools/progress.hpp"
+#include "tools/warnings.hpp"
 
 namespace mixloop {
 namespace {
@@ -223,11 +224,13 @@ nlohmann::json launched(const Experiment& experiment, const Launch& launch, cons
   if (!launch.out.empty()) prepare_folder(launch.out);
   make_plant(experiment, plan);  // the programs are compiled once, not by each process
   make_controller(experiment);
+  const nlohmann::json warnings = warnings_of(experiment, plan, launch.quiet);
 
   std::optional<LogWriter> log;
   if (!launch.out.empty()) log.emplace(launch.bus, std::filesystem::path(launch.out) / "run.lcmlog");
   Run run(experiment, launch, stop, at_end, plan.ticks());
   nlohmann::json result = run.wait();
+  result["warnings"] = warnings;
   if (log) {
     const LogSummary summary = log->finish();
     result["log"] = {

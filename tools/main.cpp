@@ -19,5 +19,6 @@ int main(int argc, char** argv) {
   mixloop::add_dynamics_command(app, status);
   mixloop::add_explain_command(app, status);
   mixloop::add_compile_command(app, status);
+  mixloop::add_stability_command(app, status);
   return mixloop::run_command_line(argc, argv, app, status);
 }

@@ -11,11 +11,14 @@
 #include "tools/commands.hpp"
 #include "tools/progress.hpp"
 #include "tools/simulated.hpp"
+#include "tools/warnings.hpp"
 
 namespace mixloop {
 
-nlohmann::json simulated(const Experiment& experiment, const std::string& out, const StopSwitch& stop) {
+nlohmann::json simulated(const Experiment& experiment, const std::string& out, const StopSwitch& stop,
+                         bool quiet) {
   const Plan plan = make_plan(experiment);
+  const nlohmann::json warnings = warnings_of(experiment, plan, quiet);
   if (!out.empty()) prepare_folder(out);
   Recorder recorder(experiment, plan);
   Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);
@@ -26,6 +29,7 @@ nlohmann::json simulated(const Experiment& experiment, const std::string& out, c
   });
   const double wall_time = std::chrono::duration<double>(now() - start).count();
   auto result = result_json(experiment, recorder.measures(), "simulate", wall_time);
+  result["warnings"] = warnings;
   if (!out.empty()) keep(out, experiment, plan, recorder, result);
   return result;
 }
@@ -43,7 +47,7 @@ int run(const Options& options) {
   stop.turn_on_signals();
   Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
   experiment.evaluation = options.evaluation;
-  const auto result = simulated(experiment, options.out, stop);
+  const auto result = simulated(experiment, options.out, stop, options.json);
   if (options.json)
     print_json(result);
   else

@@ -10,7 +10,8 @@
 namespace mixloop {
 
 /// Runs an experiment in this process and gives its result; keeps it in the folder `out` unless that is
-/// empty.
-nlohmann::json simulated(const Experiment& experiment, const std::string& out, const StopSwitch& stop);
+/// empty. Warnings are said on stderr unless `quiet`.
+nlohmann::json simulated(const Experiment& experiment, const std::string& out, const StopSwitch& stop,
+                         bool quiet);
 
 }  // namespace mixloop

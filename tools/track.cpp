@@ -38,7 +38,7 @@ nlohmann::json tracked(const std::string& file, const Options& options, const St
   experiment.evaluation = options.evaluation;
   const auto patience = nanoseconds(static_cast<std::int64_t>(options.patience * 1e9));
   if (options.attach) return attached(experiment, options.bus, patience, stop);
-  if (!options.over_bus) return simulated(experiment, "", stop);
+  if (!options.over_bus) return simulated(experiment, "", stop, true);
   Launch launch;
   launch.experiment = file;
   launch.sets = options.sets;

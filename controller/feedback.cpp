@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "controller/feedback.hpp"
+
+#include <Eigen/LU>
+
+namespace mixloop {
+
+InverseDynamicsSlope inverse_dynamics_slope(Dynamics& dynamics, const Vector& psi, const Vector& psid,
+                                            const Vector& psidd, double t) {
+  const auto n = psi.size();
+  Vector tau(n);
+  dynamics.inverse_dynamics(span_of(psi), span_of(psid), span_of(psidd), t, span_of(tau));
+  Matrix slopes(n, 3 * n);
+  dynamics.linearisation(span_of(psi), span_of(psid), span_of(std::as_const(tau)), t,
+                         {slopes.data(), static_cast<std::size_t>(slopes.size())});
+  const Eigen::PartialPivLU<Matrix> inverse_mass(slopes.rightCols(n));
+  return {-inverse_mass.solve(slopes.leftCols(n)), -inverse_mass.solve(slopes.middleCols(n, n))};
+}
+
+Feedback feedback(const ControllerSettings& settings, Dynamics& model, const Reference& reference, double t) {
+  const auto n = settings.kp.size();
+  const Vector psi = reference.psi, psid = reference.psid, psidd = reference.psidd, zero = Vector::Zero(n);
+  Feedback result{Matrix::Zero(n, 2 * n), Matrix::Zero(n, 2 * n)};
+  result.proportional.leftCols(n) = -Matrix(settings.kp.asDiagonal());
+  result.proportional.rightCols(n) = -Matrix(settings.kv.asDiagonal());
+  if (settings.feedforward_at == FeedforwardAt::kDesired) return result;
+  switch (settings.law) {
+    case Law::kPd:
+      break;
+    case Law::kPdGravity:  // h(psi, 0)
+      result.model.leftCols(n) = inverse_dynamics_slope(model, psi, zero, zero, t).by_psi;
+      break;
+    case Law::kPdFeedforward:  // M(psi) psidd_d, the difference of two inverse dynamics
+      result.model.leftCols(n) = inverse_dynamics_slope(model, psi, zero, psidd, t).by_psi -
+                                 inverse_dynamics_slope(model, psi, zero, zero, t).by_psi;
+      break;
+    case Law::kComputedTorque: {
+      const auto slope = inverse_dynamics_slope(model, psi, psid, psidd, t);
+      result.model << slope.by_psi, slope.by_psid;
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "stability/confirmation.hpp"
+
+#include <cmath>
+
+namespace mixloop {
+namespace {
+
+constexpr double kDisturbance = 1e-6;
+constexpr int kMostTicks = 20'000;
+
+/// One robot that holds the reference.
+class Holding {
+ public:
+  Holding(const Experiment& experiment, const Reference& start, const Sampling& sampling, double off)
+      : start_(start),
+        controller_(make_controller(experiment)),
+        plant_(plant_of(experiment, start, sampling, off)) {
+    // What the control law lacks of an equilibrium at the reference.
+    const auto n = start.psi.size();
+    tau_ = Vector::Zero(n);
+    support_ = Vector::Zero(n);
+    const Vector zero = Vector::Zero(n), psi = start.psi;
+    Dynamics dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
+                      {Purpose::inverse_dynamics});
+    dynamics.inverse_dynamics(span_of(psi), span_of(zero), span_of(zero), 0, span_of(support_));
+    controller_.torque(span_of(psi), span_of(zero), start_, 0, span_of(tau_));
+    support_ -= tau_;
+  }
+
+  void tick() {
+    controller_.torque(plant_.psi(), plant_.psid(), start_, plant_.time(), span_of(tau_));
+    tau_ += support_;
+    plant_.command(span_of(std::as_const(tau_)));
+    plant_.advance();
+  }
+
+  Eigen::Map<const Vector> psi() const { return map_of(plant_.psi()); }
+
+ private:
+  static Plant plant_of(const Experiment& experiment, const Reference& start, const Sampling& sampling,
+                        double off) {
+    const Vector psi = start.psi.array() + off;
+    PlantSettings settings = experiment.plant;
+    settings.command_delay = sampling.delay;
+    settings.torque_limit.clear();
+    return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
+                          {Purpose::forward_dynamics}),
+                 settings, 1 / sampling.tick, span_of(psi));
+  }
+
+  const Reference start_;
+  Controller controller_;
+  Plant plant_;
+  Vector tau_, support_;
+};
+
+}  // namespace
+
+std::string_view name_of(Fate fate) {
+  return fate == Fate::decays ? "decays" : fate == Fate::grows ? "grows" : "undecided";
+}
+
+Fate fate_of_disturbance(const Experiment& experiment, const Plan& plan, const Sampling& sampling) {
+  const Reference start = plan.at(plan.start_tick());
+  Holding disturbed(experiment, start, sampling, kDisturbance), still(experiment, start, sampling, 0);
+  int small = 0;  // ticks in a row: an oscillation passes through zero
+  for (int k = 0; k < kMostTicks; ++k) {
+    disturbed.tick();
+    still.tick();
+    const double off = (disturbed.psi() - still.psi()).cwiseAbs().maxCoeff();
+    if (!(off < 1e3 * kDisturbance)) return Fate::grows;
+    small = off < 1e-3 * kDisturbance ? small + 1 : 0;
+    if (small == 50) return Fate::decays;
+  }
+  return Fate::undecided;
+}
+
+}  // namespace mixloop

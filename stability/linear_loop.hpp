@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "controller/feedback.hpp"
+#include "loop/experiment.hpp"
+
+namespace mixloop {
+
+/// Plant and controller linearised about a reference, x = (d psi, d psid), 2n:
+///   x' = A x + B u,  u = (feedback) x,
+/// frozen there: the reference's own motion is left out.
+struct LinearLoop {
+  Matrix A;  ///< 2n x 2n
+  Matrix B;  ///< 2n x n
+  Feedback feedback;
+};
+
+/// Makes them, from the exact derivatives of the equations of motion.
+class Linearisation {
+ public:
+  explicit Linearisation(const Experiment& experiment);
+
+  /// At a reference that the plant follows exactly.
+  LinearLoop at(const Reference& reference, double t);
+
+ private:
+  const ControllerSettings settings_;
+  Dynamics plant_, model_;
+};
+
+}  // namespace mixloop

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "stability/sampled_loop.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace mixloop {
+namespace {
+
+/// e^{As} and int_0^s e^{A sigma} d sigma B, from the exponential of [[A, B], [0, 0]] s (van Loan 1978).
+struct Hold {
+  Matrix Phi, Gamma;
+
+  Hold(const LinearLoop& loop, double s) {
+    const auto rows = loop.A.rows(), columns = loop.B.cols();
+    Matrix block = Matrix::Zero(rows + columns, rows + columns);
+    block.topLeftCorner(rows, rows) = loop.A * s;
+    block.topRightCorner(rows, columns) = loop.B * s;
+    const Matrix exponential = block.exp();
+    Phi = exponential.topLeftCorner(rows, rows);
+    Gamma = exponential.topRightCorner(rows, columns);
+  }
+};
+
+double radius_of(const Eigen::VectorXcd& values) { return values.cwiseAbs().maxCoeff(); }
+
+}  // namespace
+
+Matrix sampled_transition(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling) {
+  const auto states = loop.A.rows(), n = loop.B.cols();
+  // A delay within a billionth of whole ticks is whole, as the plant has it.
+  const auto d = static_cast<Eigen::Index>(std::floor(sampling.delay / sampling.tick + 1e-9));
+  const double rest = std::max(0.0, sampling.delay - static_cast<double>(d) * sampling.tick);
+  const Hold after(loop, sampling.tick - rest), before(loop, rest);
+
+  Matrix next = Matrix::Zero(states + n * (d + 1), states + n * (d + 1));
+  next.topLeftCorner(states, states) = after.Phi * before.Phi;
+  next.block(0, states + n * d, states, n) = after.Phi * before.Gamma;  // u_{k-d-1}
+  if (d == 0)
+    next.topLeftCorner(states, states) += after.Gamma * gain;  // u_k = gain x_k
+  else
+    next.block(0, states + n * (d - 1), states, n) = after.Gamma;  // u_{k-d}
+  next.block(states, 0, n, states) = gain;
+  next.block(states + n, states, n * d, n * d).setIdentity();
+  return next;
+}
+
+double sampled_radius(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling) {
+  const Matrix next = sampled_transition(loop, gain, sampling);
+  if (!next.allFinite()) return HUGE_VAL;
+  return radius_of(Eigen::EigenSolver<Matrix>(next, false).eigenvalues());
+}
+
+Eigen::VectorXcd poles(const LinearLoop& loop, const Matrix& gain) {
+  return Eigen::EigenSolver<Matrix>(loop.A + loop.B * gain, false).eigenvalues();
+}
+
+double rk4_radius(const Eigen::VectorXcd& poles, double h) {
+  return radius_of(poles.unaryExpr([h](std::complex<double> pole) {
+    const std::complex<double> z = h * pole;
+    return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)));
+  }));
+}
+
+}  // namespace mixloop

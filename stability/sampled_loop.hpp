@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <complex>
+
+#include "stability/linear_loop.hpp"
+
+namespace mixloop {
+
+/// How far the loop is stretched: its sampling, and its gains.
+struct Sampling {
+  double tick = 1e-3;  ///< s
+  double delay = 0;    ///< s: u(t_k) acts from t_k + delay on
+};
+
+/// The state's transition over one tick with the torque held from command to command, (2n + n (d + 1))
+/// square, d whole ticks of delay: states (x_k, u_{k-1}, ..., u_{k-d-1}).
+///   x_{k+1} = e^{AT} x_k + G_0 u_{k-d} + G_1 u_{k-d-1},  delay = d T + r:
+///   G_0 = int_0^{T-r} e^{As} ds B,  G_1 = e^{A(T-r)} int_0^r e^{As} ds B
+/// (Astrom & Wittenmark, Computer-Controlled Systems, 3rd ed., section 2.6). `gain` is n x 2n.
+Matrix sampled_transition(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling);
+
+/// The largest magnitude of the transition's eigenvalues: the loop is stable below 1.
+double sampled_radius(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling);
+
+/// Eigenvalues of A + B gain, 1/s: the poles with control at every instant.
+Eigen::VectorXcd poles(const LinearLoop& loop, const Matrix& gain);
+
+/// The largest amplification of a step of length h of the classical Runge-Kutta method over the poles,
+/// |1 + z + z^2/2 + z^3/6 + z^4/24| at z = h pole (Hairer & Wanner, Solving ODEs II, IV.2).
+double rk4_radius(const Eigen::VectorXcd& poles, double h);
+
+}  // namespace mixloop

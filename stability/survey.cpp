@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "stability/survey.hpp"
+
+#include <cmath>
+
+namespace mixloop {
+namespace {
+
+void narrow(Narrowest& narrowest, const std::optional<double>& value, double time) {
+  if (value && (!narrowest.value || *value < *narrowest.value)) narrowest = {value, time};
+}
+
+}  // namespace
+
+Survey survey(const Experiment& experiment, const Plan& plan, int poses) {
+  Survey survey{
+      .sampling = {1 / experiment.rate_hz, experiment.plant.command_delay}, .times = {}, .loops = {}};
+  Linearisation linearisation(experiment);
+  const auto span = static_cast<double>(plan.ticks() - plan.start_tick());
+  for (int i = 0; i < poses; ++i) {
+    const auto k = plan.start_tick() + std::llround(span * i / (poses - 1));
+    survey.times.push_back(static_cast<double>(k - plan.start_tick()) / experiment.rate_hz);
+    survey.loops.push_back(linearisation.at(plan.at(k), static_cast<double>(k) / experiment.rate_hz));
+  }
+  return survey;
+}
+
+PathLimits path_limits(const Survey& survey) {
+  PathLimits limits;
+  for (std::size_t i = 0; i < survey.loops.size(); ++i) {
+    const Limits here = limits_of(survey.loops[i], survey.sampling);
+    if (here.radius > limits.radius) limits.radius = here.radius, limits.time_of_radius = survey.times[i];
+    narrow(limits.tick, here.longest_tick, survey.times[i]);
+    narrow(limits.delay, here.longest_delay, survey.times[i]);
+  }
+  return limits;
+}
+
+double path_radius(const Survey& survey, const Sampling& sampling) {
+  double radius = 0;
+  for (const auto& loop : survey.loops)
+    radius = std::max(radius, sampled_radius(loop, loop.feedback.gain(), sampling));
+  return radius;
+}
+
+}  // namespace mixloop

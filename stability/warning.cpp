@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "stability/warning.hpp"
+
+#include <fmt/format.h>
+
+#include "stability/survey.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr int kPoses = 9;
+constexpr double kNear = 0.1;  // of a tick
+
+std::string limit_text(const char* what, const std::optional<double>& limit) {
+  if (!limit) return fmt::format("no {} is too long", what);
+  return *limit > 0 ? fmt::format("the longest {} is {:.3f} ms", what, *limit * 1e3)
+                    : fmt::format("no {} is short enough", what);
+}
+
+/// The instant whose radius is the largest.
+std::size_t worst_instant(const Survey& survey, const auto& radius) {
+  std::size_t worst = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < survey.loops.size(); ++i)
+    if (const double here = radius(survey.loops[i]); here > largest) worst = i, largest = here;
+  return worst;
+}
+
+std::vector<std::string> held_warnings(const Survey& survey) {
+  const auto [tick, delay] = survey.sampling;
+  const auto worst_at = [&](const Sampling& sampling) {
+    return worst_instant(
+        survey, [&](const LinearLoop& loop) { return sampled_radius(loop, loop.feedback.gain(), sampling); });
+  };
+  const auto describe = [&](std::size_t i, const char* verdict) {
+    const Limits limits = limits_of(survey.loops[i], survey.sampling);
+    return fmt::format(
+        "the sampled loop {} at {:.3f} s of the path: with a tick of {:.3f} ms {}, with a delay of {:.3f} ms "
+        "{} "
+        "(mixloop stability says more)",
+        verdict, survey.times[i], tick * 1e3, limit_text("command delay", limits.longest_delay), delay * 1e3,
+        limit_text("tick", limits.longest_tick));
+  };
+  const std::size_t now = worst_at({tick, delay});
+  const auto radius = [&](std::size_t i, const Sampling& sampling) {
+    return sampled_radius(survey.loops[i], survey.loops[i].feedback.gain(), sampling);
+  };
+  if (radius(now, {tick, delay}) > 1) return {describe(now, "is unstable")};
+  for (const Sampling& further : {Sampling{tick * (1 + kNear), delay}, Sampling{tick, delay + kNear * tick}})
+    if (const std::size_t i = worst_at(further); radius(i, further) > 1)
+      return {describe(i, "is near its limit")};
+  return {};
+}
+
+std::vector<std::string> continuous_warnings(const Survey& survey, double step) {
+  const auto radius = [&](const LinearLoop& loop, double h) {
+    return rk4_radius(poles(loop, loop.feedback.gain()), h);
+  };
+  const std::size_t worst = worst_instant(survey, [&](const LinearLoop& loop) { return radius(loop, step); });
+  const LinearLoop& loop = survey.loops[worst];
+  const bool unstable = radius(loop, step) > 1;
+  if (!unstable && !(radius(loop, step * (1 + kNear)) > 1)) return {};
+  return {fmt::format("RK4 steps of {:.3f} ms {} at {:.3f} s of the path: {} (mixloop stability says more)",
+                      step * 1e3, unstable ? "are too long" : "are near their limit", survey.times[worst],
+                      limit_text("step", limits_of(loop, survey.sampling).longest_rk4_step))};
+}
+
+}  // namespace
+
+std::vector<std::string> stability_warnings(const Experiment& experiment, const Plan& plan) {
+  const Survey instants = survey(experiment, plan, kPoses);
+  return experiment.plant.continuous
+             ? continuous_warnings(instants, instants.sampling.tick / experiment.plant.substeps)
+             : held_warnings(instants);
+}
+
+}  // namespace mixloop
