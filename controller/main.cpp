@@ -4,7 +4,7 @@
 
 #include "runtime/controller_peer.hpp"
 #include "tools/bus_line.hpp"
-#include "tools/peer_end.hpp"
+#include "tools/peer.hpp"
 
 namespace mixloop {
 namespace {
@@ -42,14 +42,9 @@ int run(const PeerLine& line) {
 }  // namespace mixloop
 
 int main(int argc, char** argv) {
-  int status = 0;
-  mixloop::PeerLine line;
-  CLI::App app("mixloop-controller: the control law of an experiment, on the LCM bus.");
-  mixloop::add_peer_options(app, line);
-  app.footer(
-      "Holds STATE(k) until REFERENCE(k) is there and answers with COMMAND(k); the same tick always has the "
-      "same answer.\n"
-      "Leaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
-  app.callback([&] { status = mixloop::run(line); });
-  return mixloop::run_command_line(argc, argv, app, status);
+  return mixloop::peer_main(
+      argc, argv, "mixloop-controller: the control law of an experiment, on the LCM bus.",
+      "Holds STATE(k) until REFERENCE(k) is there and answers with COMMAND(k); the same "
+      "tick always has the same answer.",
+      mixloop::run);
 }

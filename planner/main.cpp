@@ -6,7 +6,7 @@
 
 #include "runtime/planner_peer.hpp"
 #include "tools/bus_line.hpp"
-#include "tools/peer_end.hpp"
+#include "tools/peer.hpp"
 
 namespace mixloop {
 namespace {
@@ -60,14 +60,9 @@ int run(const PeerLine& line) {
 }  // namespace mixloop
 
 int main(int argc, char** argv) {
-  int status = 0;
-  mixloop::PeerLine line;
-  CLI::App app("mixloop-planner: the references of an experiment's path, on the LCM bus.");
-  mixloop::add_peer_options(app, line);
-  app.footer(
-      "Checks the whole path first (reach, singularities, branches, limits) and refuses it with exit status "
-      "2 before anything moves.\n"
-      "Leaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
-  app.callback([&] { status = mixloop::run(line); });
-  return mixloop::run_command_line(argc, argv, app, status);
+  return mixloop::peer_main(
+      argc, argv, "mixloop-planner: the references of an experiment's path, on the LCM bus.",
+      "Checks the whole path first (reach, singularities, branches, limits) and refuses it "
+      "with exit status 2 before anything moves.",
+      mixloop::run);
 }

@@ -19,6 +19,7 @@ struct Options : PeerLine {
   std::string speed = "max";
   std::string out;
   bool truth = false;
+  bool hold = false;
   int report_fd = -1;
 };
 
@@ -170,6 +171,7 @@ int main(int argc, char** argv) {
   app.add_option("--speed", options.speed,
                  "plant seconds a real second, or max (the default): as fast as it goes")
       ->type_name("X");
+  app.add_flag("--hold", options.hold, "go on holding the end point until stopped");
   app.add_flag("--truth", options.truth, "publish TRUTH, which no controller may read");
   app.add_option("--out", options.out, "keep result.json and trajectory.csv in this folder")
       ->type_name("DIR");

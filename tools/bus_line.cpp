@@ -39,7 +39,6 @@ void add_peer_options(CLI::App& command, PeerLine& line) {
   command.add_option("--first-wait", line.first_wait, "seconds to wait for the others at the start, 60")
       ->type_name("S")
       ->check(CLI::Range(0.05, 86400.0));
-  command.add_flag("--hold", line.hold, "go on holding the end point until stopped");
   add_evaluation_option(command, line.evaluation);
 }
 

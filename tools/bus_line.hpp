@@ -17,7 +17,6 @@ struct PeerLine : CommonOptions {
   std::int64_t session = 0;
   double patience = 10;    ///< s
   double first_wait = 60;  ///< s
-  bool hold = false;
   Evaluation evaluation = Evaluation::machine_code;
 
   nanoseconds patience_ns() const { return nanoseconds(static_cast<std::int64_t>(patience * 1e9)); }

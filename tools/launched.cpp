@@ -87,8 +87,8 @@ class Run {
     if (launch_.without.empty())
       words.insert(words.end(), {"--first-wait", fmt::format("{}", std::max(launch_.patience, 10.0))});
     for (const auto& set : launch_.sets) words.insert(words.end(), {"--set", set});
-    if (launch_.hold) words.emplace_back("--hold");
     if (name != "plant") return words;
+    if (launch_.hold) words.emplace_back("--hold");
     words.insert(words.end(), {"--speed", launch_.speed, "--report-fd", std::to_string(report)});
     if (launch_.truth) words.emplace_back("--truth");
     if (!launch_.out.empty()) words.insert(words.end(), {"--out", launch_.out});

@@ -9,9 +9,9 @@
 #include <random>
 
 #include "runtime/bus.hpp"
-#include "tests/runtime/processes.hpp"
 #include "tests/runtime/toy_loop.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/command.hpp"
 
 namespace mixloop {
 namespace {
@@ -22,28 +22,27 @@ constexpr auto kLimit = 60s;
 constexpr int kTicks = 1000;
 const std::vector<std::string> kRoles{"plant", "controller", "planner"};
 
-ChildProcess start(const std::string& role, int last_tick = kTicks,
-                   const std::vector<std::string>& environment = {},
-                   const std::vector<std::string>& more = {}) {
+using Started = std::unique_ptr<Command>;
+
+Started start(const std::string& role, int last_tick = kTicks,
+              const std::vector<std::string>& environment = {}, const std::vector<std::string>& more = {}) {
   std::vector<std::string> command{MIXLOOP_TOY_PROCESS, role, std::to_string(last_tick)};
   command.insert(command.end(), more.begin(), more.end());
-  return ChildProcess(command, environment);
+  return std::make_unique<Command>(command, environment);
 }
 
-nlohmann::json finish(ChildProcess& child, const std::string& role, int expected_status = 0) {
+nlohmann::json finish(Command& child, const std::string& role, int expected_status = 0) {
   const int status = child.wait(kLimit);
-  if (status == -1) child.signal(SIGKILL);
-  if (status == -1) child.wait(5s);
-  const std::string text = child.output();
+  const std::string text = child.out() + child.err();
   EXPECT_EQ(status, expected_status) << role << ": " << text;
   const auto at = text.find('{');
   return at == std::string::npos ? nlohmann::json{} : nlohmann::json::parse(text.substr(at), nullptr, false);
 }
 
 /// Waits for all three and holds what must be true of any run.
-nlohmann::json finish_all(std::vector<ChildProcess>& children, const std::vector<std::string>& roles) {
+nlohmann::json finish_all(std::vector<Started>& children, const std::vector<std::string>& roles) {
   nlohmann::json reports;
-  for (std::size_t i = 0; i < children.size(); ++i) reports[roles[i]] = finish(children[i], roles[i]);
+  for (std::size_t i = 0; i < children.size(); ++i) reports[roles[i]] = finish(*children[i], roles[i]);
   EXPECT_EQ(reports["plant"].value("digest", ""), toy::expected_digest(kTicks)) << reports.dump(1);
   for (const std::string& role : roles) EXPECT_EQ(reports[role].value("ending", ""), "finished") << role;
   return reports;
@@ -68,7 +67,7 @@ void wait_for_tick(std::int64_t tick) {
 class StartOrder : public testing::TestWithParam<std::vector<std::string>> {};
 
 TEST_P(StartOrder, doesnt_change_what_the_plant_is_told) {
-  std::vector<ChildProcess> children;
+  std::vector<Started> children;
   for (const std::string& role : GetParam()) {
     children.push_back(start(role));
     std::this_thread::sleep_for(40ms);  // long enough to be up, so that the order is real
@@ -92,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(AllSix, StartOrder, testing::ValuesIn(all_orders()), []
 class BadNetwork : public testing::TestWithParam<int> {};
 
 TEST_P(BadNetwork, loses_doubles_and_reorders_datagrams_without_changing_a_command) {
-  std::vector<ChildProcess> children;
+  std::vector<Started> children;
   int seed = 100 * GetParam();
   for (const std::string& role : kRoles)
     children.push_back(
@@ -106,12 +105,12 @@ TEST_P(BadNetwork, loses_doubles_and_reorders_datagrams_without_changing_a_comma
 INSTANTIATE_TEST_SUITE_P(Seeds, BadNetwork, testing::Values(1, 2, 3));
 
 TEST(Lockstep, survives_processes_that_are_stopped_and_continued) {
-  std::vector<ChildProcess> children;
+  std::vector<Started> children;
   // Paced, so that the run lasts long enough to be disturbed: 0.5 s.
   for (const std::string& role : kRoles) children.push_back(start(role, kTicks, {}, {"0", "2"}));
   std::mt19937 random(7);
   for (int i = 0; i < 8; ++i) {
-    const ChildProcess& victim = children[random() % children.size()];
+    const Command& victim = *children[random() % children.size()];
     std::this_thread::sleep_for(std::chrono::milliseconds(10 + random() % 30));
     victim.signal(SIGSTOP);
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 40));
@@ -188,17 +187,17 @@ class Stranger {
 };
 
 TEST(Lockstep, isnt_disturbed_by_strangers) {
-  std::vector<ChildProcess> children;
+  std::vector<Started> children;
   for (const std::string& role : kRoles) children.push_back(start(role, kTicks, {}, {"42", "2"}));
   Stranger stranger;
-  stranger.annoy_until([&] { return children[0].ended(); });
+  stranger.annoy_until([&] { return !children[0]->running(); });
   const auto reports = finish_all(children, kRoles);
   for (const std::string& role : kRoles) EXPECT_GT(reports[role].value("rejected", 0), 50) << role;
 }
 
 TEST(Lockstep, allocates_nothing_per_tick_in_any_of_the_three) {
   if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has malloc";
-  std::vector<ChildProcess> children;
+  std::vector<Started> children;
   for (const std::string& role : kRoles) children.push_back(start(role));
   const auto reports = finish_all(children, kRoles);
   for (const std::string& role : kRoles)
@@ -207,21 +206,21 @@ TEST(Lockstep, allocates_nothing_per_tick_in_any_of_the_three) {
 }
 
 TEST(Lockstep, ends_everywhere_when_the_plant_is_interrupted) {
-  std::vector<ChildProcess> children;
+  std::vector<Started> children;
   for (const std::string& role : kRoles) children.push_back(start(role, 1'000'000, {}, {"0", "1"}));
   wait_for_tick(100);
-  children[0].signal(SIGINT);
-  EXPECT_EQ(finish(children[0], "plant", 130).value("ending", ""), "interrupted");
-  EXPECT_EQ(finish(children[1], "controller").value("ending", ""), "interrupted");
-  EXPECT_EQ(finish(children[2], "planner").value("ending", ""), "interrupted");
+  children[0]->signal(SIGINT);
+  EXPECT_EQ(finish(*children[0], "plant", 130).value("ending", ""), "interrupted");
+  EXPECT_EQ(finish(*children[1], "controller").value("ending", ""), "interrupted");
+  EXPECT_EQ(finish(*children[2], "planner").value("ending", ""), "interrupted");
 }
 
 TEST(Lockstep, goes_on_with_a_controller_that_replaces_a_killed_one) {
-  std::vector<ChildProcess> children;
+  std::vector<Started> children;
   for (const std::string& role : kRoles) children.push_back(start(role, kTicks, {}, {"0", "1"}));
   wait_for_tick(100);
-  children[1].signal(SIGKILL);
-  EXPECT_EQ(children[1].wait(5s), 128 + SIGKILL);
+  children[1]->signal(SIGKILL);
+  EXPECT_EQ(children[1]->wait(5s), 128 + SIGKILL);
   children[1] = start("controller");
   const auto reports = finish_all(children, kRoles);
   EXPECT_TRUE(reports["controller"].value("joined_late", false));

@@ -13,4 +13,8 @@ PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std
 /// How a controller or planner says that it leaves; its exit status.
 int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop);
 
+/// The main function of a controller or planner: reads its line, runs it, gives its exit status.
+int peer_main(int argc, char** argv, const char* description, const char* footer,
+              int (*run)(const PeerLine&));
+
 }  // namespace mixloop

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/peer_end.hpp"
+#include "tools/peer.hpp"
 
 #include <fmt/format.h>
 
@@ -23,6 +23,18 @@ int ended(const char* program, Ending ending, const PeerReport& report, const St
                name(ending), report.answered, report.repeated, report.rejects.total());
   if (ending == Ending::broken_off) return kHeld;  // the plant's fault, which it reports
   return stop.turned() ? kInterrupted : kHeld;
+}
+
+int peer_main(int argc, char** argv, const char* description, const char* footer,
+              int (*run)(const PeerLine&)) {
+  int status = 0;
+  PeerLine line;
+  CLI::App app(description);
+  add_peer_options(app, line);
+  app.footer(std::string(footer) +
+             "\nLeaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
+  app.callback([&] { status = run(line); });
+  return run_command_line(argc, argv, app, status);
 }
 
 }  // namespace mixloop
