@@ -2,11 +2,11 @@
 #include "runtime/lockstep_plant.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "notation/errors.hpp"
 #include "runtime/config_hash.hpp"
+#include "runtime/plant_time.hpp"
 #include "runtime/session.hpp"
 
 namespace mixloop {
@@ -28,10 +28,6 @@ std::int8_t end_reason(Ending ending) {
       break;
   }
   return sim_control_t::REASON_FAULT;
-}
-
-std::int64_t plant_time_us(std::int64_t tick, double rate_hz) {
-  return static_cast<std::int64_t>(std::floor(1e6 * static_cast<double>(tick) / rate_hz));
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/planner_peer.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "notation/errors.hpp"
+#include "runtime/plant_time.hpp"
 
 namespace mixloop {
 
@@ -43,9 +43,7 @@ void PlannerPeer::publish(std::int64_t tick) {
   side_.refer(tick, message);
   if (!is_finite(message))
     throw RunFault("not_finite", "the plan has no finite reference for tick " + std::to_string(tick));
-  const auto utime =
-      static_cast<std::int64_t>(std::floor(1e6 * static_cast<double>(tick) / options_.rate_hz));
-  set_header(message, link_.answer_header(tick, utime));
+  set_header(message, link_.answer_header(tick, plant_time_us(tick, options_.rate_hz)));
   bus_.publish(reference_channel_, reference_.encode());
 }
 
