@@ -5,10 +5,9 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "dynamics/program/emitted_functions.hpp"
 #include "dynamics/program/program.hpp"
-#include "dynamics/program/shared_object.hpp"
 
 namespace mixloop {
 
@@ -21,20 +20,15 @@ class LaneCode {
                                         std::string& complaint);
 
   int width() const { return width_; }
-  void set_up(std::span<const double> parameters) noexcept { set_up_(parameters.data(), constants_.data()); }
-  void evaluate(const double* psi, const double* psid, const double* input, const double* t, double* outputs) noexcept {
-    evaluate_(psi, psid, input, t, constants_.data(), outputs);
+  void set_up(std::span<const double> parameters) noexcept { emitted_.set_up(parameters); }
+  void evaluate(const double* psi, const double* psid, const double* input, const double* t,
+                double* outputs) noexcept {
+    emitted_.evaluate(psi, psid, input, t, outputs);
   }
 
  private:
-  using SetUp = void (*)(const double*, double*);
-  using Evaluate = void (*)(const double*, const double*, const double*, const double*, const double*, double*);
-
-  SharedObject library_;
+  EmittedFunctions<const double*> emitted_;
   int width_ = 4;
-  SetUp set_up_ = nullptr;
-  Evaluate evaluate_ = nullptr;
-  std::vector<double> constants_;
 };
 
 }  // namespace mixloop

@@ -25,14 +25,15 @@ constexpr double kLow = 0x1.3198a2e037073p-69;
 constexpr double kLimit = 0x1p+20;   // beyond it, the C library's
 constexpr double kRound = 0x1.8p+52; // adding it rounds to the nearest whole number, kept in the low bits
 
-// sin r = r + r^3 (S0 + S1 r^2 + ...), |r| <= pi/4, z = r^2; FreeBSD's coefficients, error below 2^-58.
+// sin r = r + r^3 (S0 + S1 r^2 + ...), |r| <= pi/4, z = r^2; FreeBSD's coefficients, error below 2^-58. In
+// Estrin's order, whose chains are short.
 // By reference, so that vectors meet no calling convention.
 template <class Real>
 MIXLOOP_INLINE void sine_kernel(const Real& r, const Real& z, Real& sine) {
   const Real z2 = z * z;
   const Real p = (-0x1.5555555555549p-3 + z * 0x1.111111110f8a6p-7) +
-                 z2 * ((-0x1.a01a019c161d5p-13 + z * 0x1.71de357b1fe7dp-19) +
-                       z2 * (-0x1.ae5e68a2b9cebp-26 + z * 0x1.5d93a5acfd57cp-33));
+                 (z2 * (-0x1.a01a019c161d5p-13 + z * 0x1.71de357b1fe7dp-19) +
+                  (z2 * z2) * (-0x1.ae5e68a2b9cebp-26 + z * 0x1.5d93a5acfd57cp-33));
   sine = r + (r * z) * p;
 }
 
@@ -41,9 +42,25 @@ template <class Real>
 MIXLOOP_INLINE void cosine_kernel(const Real& z, Real& cosine) {
   const Real z2 = z * z;
   const Real p = (0x1.555555555554cp-5 + z * -0x1.6c16c16c15177p-10) +
-                 z2 * ((0x1.a01a019cb159p-16 + z * -0x1.27e4f809c52adp-22) +
-                       z2 * (0x1.1ee9ebdb4b1c4p-29 + z * -0x1.8fae9be8838d4p-37));
+                 (z2 * (0x1.a01a019cb159p-16 + z * -0x1.27e4f809c52adp-22) +
+                  (z2 * z2) * (0x1.1ee9ebdb4b1c4p-29 + z * -0x1.8fae9be8838d4p-37));
   cosine = (1.0 - 0.5 * z) + z2 * p;
+}
+
+// x = k pi/2 + r; the low bits of `shifted` are k's.
+template <class Real>
+MIXLOOP_INLINE void reduce(const Real& x, Real& r, Real& shifted) {
+  shifted = x * kTwoOverPi + kRound;
+  const Real k = shifted - kRound;
+  r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
+}
+
+// Odd quadrants swap sine and cosine; the sine turns in quadrants 2 and 3, the cosine in 1 and 2.
+template <class Bits>
+MIXLOOP_INLINE void to_quadrant(const Bits& quadrant, Bits& sine, Bits& cosine) {
+  const Bits swapped = (sine ^ cosine) & (0 - (quadrant & 1));
+  sine ^= swapped ^ ((quadrant & 2) << 62);
+  cosine ^= swapped ^ (((quadrant + 1) & 2) << 62);
 }
 
 /// Error below 1.6 units in the last place for |x| <= 100, 2.5 up to 1e6 (beside the zeros, where the
@@ -54,26 +71,35 @@ MIXLOOP_INLINE void sincos(double x, double* sine, double* cosine) {
     *cosine = cos(x);
     return;
   }
-  const double shifted = x * kTwoOverPi + kRound;
-  const double k = shifted - kRound;
-  const double r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
+  double r, shifted, s, c;
+  reduce(x, r, shifted);
   const double z = r * r;
-  double s, c;
   sine_kernel(r, z, s);
   cosine_kernel(z, c);
   uint64_t quadrant, u, v;
   memcpy(&quadrant, &shifted, sizeof quadrant);
   memcpy(&u, &s, sizeof u);
   memcpy(&v, &c, sizeof v);
-  // Odd quadrants swap sine and cosine; the sine turns in quadrants 2 and 3, the cosine in 1 and 2.
-  const uint64_t swapped = (u ^ v) & (0 - (quadrant & 1));
-  u ^= swapped ^ ((quadrant & 2) << 62);
-  v ^= swapped ^ (((quadrant + 1) & 2) << 62);
+  to_quadrant(quadrant, u, v);
   memcpy(sine, &u, sizeof u);
   memcpy(cosine, &v, sizeof v);
 }
 
 #if defined(__GNUC__)
+
+// The same of GCC's and clang's vectors, for angles below kLimit.
+template <class Bits, class Real>
+MIXLOOP_INLINE void small_sincos(const Real& x, Real& sine, Real& cosine) {
+  Real r, shifted, s, c;
+  reduce(x, r, shifted);
+  const Real z = r * r;
+  sine_kernel(r, z, s);
+  cosine_kernel(z, c);
+  Bits u = (Bits)s, v = (Bits)c;
+  to_quadrant((Bits)shifted, u, v);
+  sine = (Real)u;
+  cosine = (Real)v;
+}
 
 typedef double Four __attribute__((vector_size(32)));
 typedef int64_t FourBits __attribute__((vector_size(32)));
@@ -92,17 +118,8 @@ template <int kCount>
 MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount], double (&cosine)[kCount]) {
   static_assert(kCount <= 4, "four lanes");
   const Four a = {x[0], x[kCount > 1 ? 1 : 0], x[kCount > 2 ? 2 : 0], x[kCount > 3 ? 3 : 0]};
-  const Four shifted = a * kTwoOverPi + kRound;
-  const Four k = shifted - kRound;
-  const Four r = ((a - k * kHigh) - k * kMiddle) - k * kLow;
-  const Four z = r * r;
   Four s, c;
-  sine_kernel(r, z, s);
-  cosine_kernel(z, c);
-  const FourBits quadrant = (FourBits)shifted, u = (FourBits)s, v = (FourBits)c;
-  const FourBits swapped = (u ^ v) & -(quadrant & 1);
-  s = (Four)(u ^ swapped ^ ((quadrant & 2) << 62));
-  c = (Four)(v ^ swapped ^ (((quadrant + 1) & 2) << 62));
+  small_sincos<FourBits>(a, s, c);
   double sum = 0.0;
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) sum += fabs(x[i]);

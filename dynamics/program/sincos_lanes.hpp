@@ -25,26 +25,6 @@ MIXLOOP_INLINE typename Vectors<kLanes>::Real lane_by_lane(typename Vectors<kLan
   return x;
 }
 
-// Without the C library's help: for angles below kLimit.
-template <int kLanes>
-MIXLOOP_INLINE void small_sincos(const typename Vectors<kLanes>::Real& x, typename Vectors<kLanes>::Real& sine,
-                                 typename Vectors<kLanes>::Real& cosine) {
-  using namespace mixloop_sincos;
-  using Real = typename Vectors<kLanes>::Real;
-  using Bits = typename Vectors<kLanes>::Bits;
-  const Real shifted = x * kTwoOverPi + kRound;
-  const Real k = shifted - kRound;
-  const Real r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
-  const Real z = r * r;
-  Real s, c;
-  sine_kernel(r, z, s);
-  cosine_kernel(z, c);
-  const Bits quadrant = (Bits)shifted, u = (Bits)s, v = (Bits)c;
-  const Bits swapped = (u ^ v) & -(quadrant & 1);
-  sine = (Real)(u ^ swapped ^ ((quadrant & 2) << 62));
-  cosine = (Real)(v ^ swapped ^ (((quadrant + 1) & 2) << 62));
-}
-
 template <int kLanes, int kCount>
 MIXLOOP_INLINE void sincos_of(const typename Vectors<kLanes>::Real (&x)[kCount],
                               typename Vectors<kLanes>::Real (&sine)[kCount],
@@ -53,7 +33,7 @@ MIXLOOP_INLINE void sincos_of(const typename Vectors<kLanes>::Real (&x)[kCount],
   constexpr int64_t kMagnitude = INT64_MAX;
   typename Vectors<kLanes>::Real sum = {};
   for (int i = 0; i < kCount; ++i) {
-    small_sincos<kLanes>(x[i], sine[i], cosine[i]);
+    mixloop_sincos::small_sincos<Bits>(x[i], sine[i], cosine[i]);
     sum += (typename Vectors<kLanes>::Real)((Bits)x[i] & kMagnitude);
   }
   double all = 0.0;

@@ -51,6 +51,11 @@ NodeId Graph::intern(const ExpressionNode& node) {
   return found->second;
 }
 
+std::optional<NodeId> Graph::known(const ExpressionNode& node) const {
+  const auto found = ids_.find(node);
+  return found == ids_.end() ? std::nullopt : std::optional(found->second);
+}
+
 NodeId Graph::constant(double value) {
   return intern({Op::constant, 0, 0, value == 0.0 ? 0.0 : value});  // one zero, whatever its sign
 }
@@ -108,6 +113,8 @@ NodeId Graph::add(NodeId a, NodeId b) {
     if (auto y = n.op == Op::add ? number(n.a) : std::nullopt) return add(constant(*x + *y), n.b);
     if (auto y = n.op == Op::add ? number(n.b) : std::nullopt) return add(constant(*x + *y), n.a);
     if (auto y = n.op == Op::sub ? number(n.a) : std::nullopt) return sub(constant(*x + *y), n.b);
+    if (*x < 0.0)
+      if (auto other = known({Op::sub, constant(-*x), b, 0.0})) return intern({Op::neg, *other, 0, 0.0});
   }
   if (a == b) return mul(constant(2.0), a);
   return intern({Op::add, std::min(a, b), std::max(a, b), 0.0});
@@ -125,7 +132,10 @@ NodeId Graph::sub(NodeId a, NodeId b) {
     if (auto y = n.op == Op::add ? number(n.a) : std::nullopt) return sub(constant(*x - *y), n.b);
     if (auto y = n.op == Op::add ? number(n.b) : std::nullopt) return sub(constant(*x - *y), n.a);
     if (auto y = n.op == Op::sub ? number(n.a) : std::nullopt) return add(constant(*x - *y), n.b);
+    // -c - y is the opposite of c + y.
+    if (*x < 0.0) return neg(add(constant(-*x), b));
   }
+  if (auto other = known({Op::sub, b, a, 0.0})) return intern({Op::neg, *other, 0, 0.0});
   return intern({Op::sub, a, b, 0.0});
 }
 

@@ -92,6 +92,7 @@ class Graph {
   };
 
   NodeId intern(const ExpressionNode& node);
+  std::optional<NodeId> known(const ExpressionNode& node) const;
   NodeId add(NodeId a, NodeId b);
   NodeId sub(NodeId a, NodeId b);
   NodeId mul(NodeId a, NodeId b);

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "dynamics/program/interpreter.hpp"
+#include "dynamics/program/short_chains.hpp"
 #include "dynamics/symbolic/derivative.hpp"
 #include "dynamics/symbolic/expression.hpp"
 #include "dynamics/symbolic/polynomial.hpp"
@@ -34,6 +36,39 @@ TEST_F(GraphTest, EqualExpressionsAreOneNode) {
   EXPECT_EQ((psi(0) * psi(1) + psi(2)).node(), (psi(2) + psi(1) * psi(0)).node());
   EXPECT_EQ((psi(0) - psi(1)).node(), (-(psi(1) - psi(0))).node());
   EXPECT_EQ((Expression(2.0) * psi(0)).node(), (psi(0) + psi(0)).node());
+}
+
+TEST_F(GraphTest, ADifferenceAndItsOppositeTakeOneOperation) {
+  const Expression x = psi(0) - psi(1), y = psi(1) - psi(0);
+  EXPECT_EQ(operations(x * y * psi(2) + x).flops(), 4u);  // x, x x, times psi, x - that
+  const Expression u = Expression(-2.0) - psi(0), v = psi(0) + Expression(2.0);
+  EXPECT_EQ(operations(u * v).flops(), 3u);  // v, v v, its opposite
+  EXPECT_EQ(value(u * v, {1.0}), -9.0);
+}
+
+// ((a + b) + c) + d, one after the other, becomes (a + b) + (c + d).
+TEST_F(GraphTest, LongSumsAreTakenTogetherSideBySide) {
+  Expression sum = psi(0) * psi(0), product = psi(0);
+  for (std::size_t i = 1; i < 8; ++i) sum -= psi(i) * psi(i), product *= psi(i);
+  const Program chained = make_program(graph_, std::vector{sum.node(), product.node()});
+  const Program program = with_short_chains(chained);
+  EXPECT_EQ(program.run_operations().flops(), chained.run_operations().flops());
+  const auto depth = [](const Program& p, NodeId output) {
+    std::vector<int> known(p.nodes.size(), 0);
+    for (NodeId id = 0; id < p.nodes.size(); ++id)
+      if (is_binary(p.nodes[id].op)) known[id] = 1 + std::max(known[p.nodes[id].a], known[p.nodes[id].b]);
+    return known[output];
+  };
+  EXPECT_EQ(depth(chained, chained.outputs[0]), 8);
+  EXPECT_EQ(depth(program, program.outputs[0]), 4);
+  EXPECT_EQ(depth(program, program.outputs[1]), 3);
+  Interpreter interpreter(program);
+  interpreter.set_up({});
+  const std::vector<double> at{9, 1, 2, 1, 2, 1, 2, 1};
+  double out[2];
+  interpreter.evaluate({at.data(), nullptr, nullptr, 0.0}, out);
+  EXPECT_EQ(out[0], 81.0 - 16.0);
+  EXPECT_EQ(out[1], 72.0);
 }
 
 TEST_F(GraphTest, ZerosOnesAndNumbersFold) {
