@@ -3,10 +3,11 @@
 
 #include <cstdio>
 #include <mutex>
+#include <optional>
 
-#include "dynamics/program/reference.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/machine_code.hpp"
+#include "dynamics/program/reference.hpp"
 #include "dynamics/program/trace.hpp"
 
 namespace mixloop {
@@ -19,14 +20,19 @@ void say_once(const std::string& complaint) {
   });
 }
 
-std::unique_ptr<Routine> make_routine(const std::shared_ptr<const Scene>& scene, Purpose purpose, Evaluation& how) {
+std::unique_ptr<Routine> make_routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,
+                                      Evaluation& how) {
   if (how == Evaluation::reference) return reference_routine(scene, purpose);
-  const auto program = [&] { return trace(scene, purpose).program; };
+  std::optional<Program> traced;
+  const auto program = [&] {
+    if (!traced) traced = trace(scene, purpose).program;
+    return *traced;
+  };
   if (how == Evaluation::machine_code) {
     std::string complaint;
     const std::string key = std::string(name_of(purpose)) + "\n" + scene->canonical;
     if (auto code = MachineCode::load(key, program, complaint)) return code;
-    say_once(complaint);
+    if (!complaint.empty()) say_once(complaint);
     how = Evaluation::interpreter;
   }
   return std::make_unique<Interpreter>(program());
@@ -43,7 +49,11 @@ std::string_view name_of(Evaluation how) {
 Dynamics::Dynamics(std::shared_ptr<const Scene> scene, std::span<const double> parameters, Evaluation how,
                    std::initializer_list<Purpose> purposes)
     : scene_(std::move(scene)), how_(how) {
-  for (Purpose purpose : purposes) routines_[static_cast<std::size_t>(purpose)] = make_routine(scene_, purpose, how_);
+  for (Purpose purpose : purposes) {
+    Evaluation served = how;
+    routines_[static_cast<std::size_t>(purpose)] = make_routine(scene_, purpose, served);
+    if (served != how) how_ = served;
+  }
   set_parameters(parameters);
 }
 
@@ -90,13 +100,14 @@ void Dynamics::energy(std::span<const double> psi, std::span<const double> psid,
   routine(Purpose::energy).run(psi.data(), psid.data(), nullptr, t, out.data());
 }
 
-void Dynamics::linearisation(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau,
-                             double t, std::span<double> out) noexcept {
+void Dynamics::linearisation(std::span<const double> psi, std::span<const double> psid,
+                             std::span<const double> tau, double t, std::span<double> out) noexcept {
   routine(Purpose::linearisation).run(psi.data(), psid.data(), tau.data(), t, out.data());
 }
 
 void Dynamics::dynamics_and_mass_times(std::span<const double> psi, std::span<const double> psid,
-                                       std::span<const double> tau_and_a, double t, std::span<double> out) noexcept {
+                                       std::span<const double> tau_and_a, double t,
+                                       std::span<double> out) noexcept {
   routine(Purpose::dynamics_and_mass_times).run(psi.data(), psid.data(), tau_and_a.data(), t, out.data());
 }
 

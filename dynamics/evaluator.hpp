@@ -19,7 +19,8 @@ namespace mixloop {
 enum class Evaluation : std::uint8_t {
   reference,     ///< the procedure as it stands, on doubles
   interpreter,   ///< the scene's programs, interpreted
-  machine_code,  ///< the scene's programs, compiled; the interpreter where there is no compiler
+  machine_code,  ///< the scene's programs, compiled; interpreted where there is no compiler, and those too
+                 ///< long to compile (kMostCompiledOperations)
 };
 
 /// `reference`, `interpreter`, `machine_code`.
@@ -42,29 +43,32 @@ class Dynamics {
 
   const Scene& scene() const { return *scene_; }
   int n() const { return scene_->n(); }
-  /// What serves: machine code that could not be had is interpreted.
+  /// What serves; `interpreter` where machine code was asked for and at least one program is interpreted.
   Evaluation evaluation() const { return how_; }
 
   /// Runs the set-up programs: new values for the scene's parameters.
   void set_parameters(std::span<const double> parameters);
 
   /// psidd = M^-1 (tau - h); not finite where M is singular.
-  void forward_dynamics(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau,
-                        double t, std::span<double> psidd) noexcept;
+  void forward_dynamics(std::span<const double> psi, std::span<const double> psid,
+                        std::span<const double> tau, double t, std::span<double> psidd) noexcept;
   /// M a.
-  void mass_times(std::span<const double> psi, std::span<const double> a, double t, std::span<double> out) noexcept;
+  void mass_times(std::span<const double> psi, std::span<const double> a, double t,
+                  std::span<double> out) noexcept;
   /// M, n x n.
   void mass_matrix(std::span<const double> psi, double t, std::span<double> M) noexcept;
   /// h.
-  void bias(std::span<const double> psi, std::span<const double> psid, double t, std::span<double> h) noexcept;
+  void bias(std::span<const double> psi, std::span<const double> psid, double t,
+            std::span<double> h) noexcept;
   /// tau = M psidd + h.
-  void inverse_dynamics(std::span<const double> psi, std::span<const double> psid, std::span<const double> psidd,
-                        double t, std::span<double> tau) noexcept;
+  void inverse_dynamics(std::span<const double> psi, std::span<const double> psid,
+                        std::span<const double> psidd, double t, std::span<double> tau) noexcept;
   /// Position, velocity, acceleration (3 each), Jacobian (3 x n).
   void end_effector(std::span<const double> psi, std::span<const double> psid, std::span<const double> psidd,
                     double t, std::span<double> out) noexcept;
   /// Kinetic energy and potential.
-  void energy(std::span<const double> psi, std::span<const double> psid, double t, std::span<double> out) noexcept;
+  void energy(std::span<const double> psi, std::span<const double> psid, double t,
+              std::span<double> out) noexcept;
   /// d psidd / d psi, d psidd / d psid, d psidd / d tau, n x n each.
   void linearisation(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau,
                      double t, std::span<double> out) noexcept;

@@ -19,28 +19,33 @@ nlohmann::json counts(const OperationCount& count) {
           {"sincos", count.sincos}, {"other", count.other}, {"flops", count.flops()}};
 }
 
+const char* served_by(const Explanation::Quantity& quantity) {
+  return quantity.compiled ? "machine_code" : "interpreter";
+}
+
 nlohmann::json as_json(const Explanation& explanation) {
   nlohmann::json json;
   for (const auto& quantity : explanation.quantities)
     json["quantities"][std::string(name_of(quantity.purpose))] = {{"literal", counts(quantity.literal)},
                                                                   {"pruned", counts(quantity.run)},
                                                                   {"set_up", counts(quantity.set_up)},
-                                                                  {"tracing", name_of(quantity.tracing)}};
+                                                                  {"tracing", name_of(quantity.tracing)},
+                                                                  {"evaluation", served_by(quantity)}};
   json["reasons"] = explanation.reasons;
   return json;
 }
 
 void print_table(const Explanation& explanation) {
-  fmt::print("{:<26}{:>18}{:>18}{:>8}   {}\n", "operations + sincos", "literal", "pruned", "", "traced");
+  fmt::print("{:<26}{:>18}{:>18}{:>8}   {:<13}{}\n", "operations + sincos", "literal", "pruned", "", "traced", "runs as");
   for (const auto& quantity : explanation.quantities) {
     const auto text = [](const OperationCount& count) {
       return fmt::format("{} + {}", count.flops(), count.sincos);
     };
-    fmt::print("{:<26}{:>18}{:>18}{:>7.1f}x   {}\n", name_of(quantity.purpose), text(quantity.literal),
+    fmt::print("{:<26}{:>18}{:>18}{:>7.1f}x   {:<13}{}\n", name_of(quantity.purpose), text(quantity.literal),
                text(quantity.run),
                static_cast<double>(quantity.literal.flops()) /
                    static_cast<double>(std::max<std::size_t>(1, quantity.run.flops())),
-               name_of(quantity.tracing));
+               name_of(quantity.tracing), served_by(quantity));
   }
   fmt::print("\nForward dynamics: {}\n  instead of {}.\n\nWhy:\n", explanation.quantities[0].run.text(),
              explanation.quantities[0].literal.text());

@@ -3,6 +3,7 @@
 
 #include "dynamics/procedure/procedure.hpp"
 #include "dynamics/program/counted.hpp"
+#include "dynamics/program/machine_code.hpp"
 
 namespace mixloop {
 namespace {
@@ -58,7 +59,7 @@ Explanation explain(const std::shared_ptr<const Scene>& scene) {
   for (Purpose purpose : kPurposes) {
     const TracedProgram traced = trace(scene, purpose);
     explanation.quantities.push_back({purpose, literal.of(purpose), traced.program.run_operations(),
-                                      traced.program.set_up_operations(), traced.tracing});
+                                      traced.program.set_up_operations(), traced.tracing, is_compiled(traced.program)});
   }
   explanation.reasons = reasons_of(scene);
   return explanation;

@@ -2,6 +2,7 @@
 # generator finds no entry of the old one's), and the text of sine and cosine that emitted code carries.
 set(MIXLOOP_GENERATOR_SOURCES
     symbolic/angles.cpp
+    symbolic/articulated.cpp
     symbolic/derivative.cpp
     symbolic/evaluation_angles.cpp
     symbolic/expression.cpp
@@ -12,10 +13,12 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/harmonic_form.cpp
     symbolic/harmonic_functions.cpp
     symbolic/harmonic_sum.cpp
+    symbolic/link_frames.cpp
     symbolic/literal.cpp
     symbolic/polynomial.cpp
     symbolic/recursive.cpp
     symbolic/tracer.cpp
+    program/short_chains.cpp
     program/program.cpp
     program/source.cpp
     program/tape.cpp
@@ -23,7 +26,7 @@ set(MIXLOOP_GENERATOR_SOURCES
 
 set(MIXLOOP_GENERATOR_HASH "")
 file(GLOB generator_headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
-     symbolic/*.hpp procedure/*.hpp scene/*.hpp program/sincos*.hpp program/source.hpp ../notation/formula.hpp)
+     symbolic/*.hpp procedure/*.hpp scene/*.hpp program/sincos*.hpp program/source.hpp program/short_chains.hpp ../notation/formula.hpp)
 foreach(file IN LISTS MIXLOOP_GENERATOR_SOURCES generator_headers)
   file(SHA256 ${CMAKE_CURRENT_SOURCE_DIR}/${file} hash)
   string(SHA256 MIXLOOP_GENERATOR_HASH "${MIXLOOP_GENERATOR_HASH}${hash}")

@@ -5,30 +5,29 @@
 
 namespace mixloop {
 
+bool is_compiled(const Program& program) {
+  const OperationCount run = program.run_operations();
+  return run.flops() + run.sincos <= kMostCompiledOperations;
+}
+
 std::unique_ptr<MachineCode> MachineCode::load(const std::string& key, const std::function<Program()>& trace,
                                                std::string& complaint) {
   const SourceStyle style;
-  auto source = [&] { return source_head(style) + source_of(trace(), style); };
+  const auto source = [&] {
+    const Program program = trace();
+    return is_compiled(program) ? source_head(style) + source_of(program, style) : std::string();
+  };
   auto code = std::make_unique<MachineCode>();
-  code->library_ = SharedObject::cached("program:" + key, source, complaint);
-  if (!code->library_) return nullptr;
-  code->set_up_ = reinterpret_cast<SetUp>(code->library_.symbol(style.prefix + "_set_up"));
-  code->evaluate_ = reinterpret_cast<Evaluate>(code->library_.symbol(style.prefix));
-  const auto* count = static_cast<const int*>(code->library_.symbol(style.prefix + "_constants"));
-  if (code->set_up_ == nullptr || code->evaluate_ == nullptr || count == nullptr) {
-    complaint = "the built program lacks its functions";
-    return nullptr;
-  }
-  code->constants_.resize(static_cast<std::size_t>(*count));
+  SharedObject library = SharedObject::cached("program:" + key, source, complaint);
+  if (!code->emitted_.load(std::move(library), style.prefix, style.prefix, complaint)) return nullptr;
   return code;
 }
 
-void MachineCode::set_up(std::span<const double> parameters) noexcept {
-  set_up_(parameters.data(), constants_.data());
-}
+void MachineCode::set_up(std::span<const double> parameters) noexcept { emitted_.set_up(parameters); }
 
-void MachineCode::run(const double* psi, const double* psid, const double* input, double t, double* outputs) noexcept {
-  evaluate_(psi, psid, input, t, constants_.data(), outputs);
+void MachineCode::run(const double* psi, const double* psid, const double* input, double t,
+                      double* outputs) noexcept {
+  emitted_.evaluate(psi, psid, input, t, outputs);
 }
 
 }  // namespace mixloop

@@ -4,34 +4,35 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
+#include "dynamics/program/emitted_functions.hpp"
 #include "dynamics/program/program.hpp"
 #include "dynamics/program/routine.hpp"
-#include "dynamics/program/shared_object.hpp"
 
 namespace mixloop {
+
+/// Programs of more operations are interpreted: a compiler takes about 0.3 s for a thousand, and machine code
+/// gains least on long ones (docs/compiler.md).
+constexpr std::size_t kMostCompiledOperations = 20000;
+
+/// Whether a program is short enough to compile.
+bool is_compiled(const Program& program);
 
 /// A program built by the system's compiler and loaded.
 class MachineCode final : public Routine {
  public:
   /// The code kept under `key` (a text that says which program it is), else built from what `trace`
   /// returns; `trace` is not called otherwise. nullptr when it can't be had: no compiler, no private
-  /// directory, a full disk; `complaint` says which.
+  /// directory, a full disk, and `complaint` says which; or, with no complaint, a program too long.
   static std::unique_ptr<MachineCode> load(const std::string& key, const std::function<Program()>& trace,
                                            std::string& complaint);
 
   void set_up(std::span<const double> parameters) noexcept override;
-  void run(const double* psi, const double* psid, const double* input, double t, double* outputs) noexcept override;
+  void run(const double* psi, const double* psid, const double* input, double t,
+           double* outputs) noexcept override;
 
  private:
-  using SetUp = void (*)(const double*, double*);
-  using Evaluate = void (*)(const double*, const double*, const double*, double, const double*, double*);
-
-  SharedObject library_;
-  SetUp set_up_ = nullptr;
-  Evaluate evaluate_ = nullptr;
-  std::vector<double> constants_;
+  EmittedFunctions<double> emitted_;
 };
 
 }  // namespace mixloop

@@ -62,7 +62,10 @@ SharedObject SharedObject::cached(const std::string& key, const std::function<st
     return result;
   }
   const CacheEntry entry(*directory, entry_key(key, *compiler));
-  if (!entry.is_sound() && !build(entry, *directory, *compiler, source(), complaint)) return result;
+  if (!entry.is_sound()) {
+    const std::string text = source();
+    if (text.empty() || !build(entry, *directory, *compiler, text, complaint)) return result;
+  }
   result.library_.reset(::dlopen(entry.path().c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!result) complaint = ::dlerror();
   return result;

@@ -11,7 +11,8 @@ namespace mixloop {
 class SharedObject {
  public:
   /// The library kept under the SHA-256 of `key`, compiler, flags and processor; built from what `source`
-  /// returns (C++ text) where the cache has no sound one. On failure empty, and `complaint` says why.
+  /// returns (C++ text; an empty one is not built) where the cache has no sound one. On failure empty, and
+  /// `complaint` says why.
   static SharedObject cached(const std::string& key, const std::function<std::string()>& source,
                              std::string& complaint);
 

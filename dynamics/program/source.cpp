@@ -22,11 +22,17 @@ std::string number(double x) {
   return fmt::format("{:a}", x);
 }
 
+// Longer programs are written in parts of so many statements.
+constexpr std::size_t kMostSteps = 1000;
+
 class Writer {
  public:
   Writer(const Program& program, const SourceStyle& style)
       : program_(program), style_(style), hoisted_(program.hoisted()) {
     name_.resize(program.nodes.size());
+    pairs_.resize(program.nodes.size());
+    for (NodeId id = 0; id < program.nodes.size(); ++id)
+      if (is_trigonometric(program.nodes[id].op)) pairs_[program.nodes[id].a].push_back(id);
   }
 
   std::string write() {
@@ -37,6 +43,12 @@ class Writer {
   }
 
  private:
+  // One node, or the sines and cosines of a batch of angles.
+  struct Step {
+    NodeId node = 0;
+    std::vector<NodeId> batch;
+  };
+
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
@@ -53,17 +65,60 @@ class Writer {
     line("}}\n");
   }
 
+  static constexpr const char* kTakes =
+      "const Real* psi, const Real* psid, const Real* input, Real t, const double* k, Real* ";
+
   void evaluation() {
     for (std::size_t i = 0; i < hoisted_.size(); ++i) name_[hoisted_[i]] = fmt::format("k[{}]", i);
-    line("namespace {{\ntemplate <class Real>");
-    line("inline void {}_run(const Real* psi, const Real* psid, const Real* input, Real t, const double* k, Real* out) {{",
-         style_.prefix);
-    line("  (void)psi, (void)psid, (void)input, (void)t, (void)k;");
     in_run_ = true;
-    statements(Stage::run, "Real");
+    name_leaves(Stage::run);
+    const std::vector<Step> steps = steps_of(Stage::run);
+    line("namespace {{");
+    const std::size_t parts = steps.size() <= kMostSteps ? 0 : write_parts(steps);
+    line("template <class Real>\ninline void {}_run({}out) {{", style_.prefix, kTakes);
+    line("  (void)psi, (void)psid, (void)input, (void)t, (void)k;");
+    if (parts > 0) line("  Real w[{}];", slots_);
+    for (std::size_t i = 0; i < parts; ++i)
+      line("  {}_part_{}<Real>(psi, psid, input, t, k, w);", style_.prefix, i);
+    if (parts == 0)
+      for (const Step& step : steps) write(step, "Real");
     for (std::size_t i = 0; i < program_.outputs.size(); ++i)
       line("  out[{}] = {};", i, as_real(program_.outputs[i]));
     line("}}\n}}  // namespace\n");
+  }
+
+  // A long program in functions of their own, what one leaves for the next in w: the compiler's time grows
+  // faster than a function's length. Returns how many.
+  std::size_t write_parts(const std::vector<Step>& steps) {
+    const std::size_t count = (steps.size() + kMostSteps - 1) / kMostSteps;
+    std::vector<std::size_t> last(program_.nodes.size(), 0);  // the part that uses a value last
+    for (std::size_t s = 0; s < steps.size(); ++s)
+      for (NodeId id : takes(steps[s])) last[id] = s / kMostSteps;
+    for (NodeId output : program_.outputs) last[output] = count;
+    std::vector<std::vector<std::size_t>> freed(count + 1);
+    std::vector<std::size_t> idle;
+    for (std::size_t part = 0; part < count; ++part) {
+      line("template <class Real>\nMIXLOOP_PART void {}_part_{}({}w) {{", style_.prefix, part, kTakes);
+      line("  (void)psi, (void)psid, (void)input, (void)t, (void)k;");
+      const auto from = steps.begin() + static_cast<std::ptrdiff_t>(part * kMostSteps);
+      const auto to = part + 1 == count ? steps.end() : from + static_cast<std::ptrdiff_t>(kMostSteps);
+      std::for_each(from, to, [&](const Step& step) { write(step, "Real"); });
+      for (auto step = from; step != to; ++step)
+        for (NodeId id : gives(*step)) {
+          if (last[id] <= part) continue;
+          std::size_t slot = slots_;
+          if (idle.empty())
+            ++slots_;
+          else
+            slot = idle.back(), idle.pop_back();
+          freed[last[id]].push_back(slot);
+          line("  w[{}] = {};", slot, name_[id]);
+          name_[id] = fmt::format("w[{}]", slot);
+        }
+      line("}}\n");
+      idle.insert(idle.end(), freed[part].begin(), freed[part].end());
+    }
+    return count;
   }
 
   // A constant or set-up value as an output, which may be a vector of lanes.
@@ -72,50 +127,91 @@ class Writer {
   }
 
   void exports() {
-    line("extern \"C\" void {0}(const double* psi, const double* psid, const double* input, double t, "
-         "const double* k, double* out) {{\n  {0}_run<double>(psi, psid, input, t, k, out);\n}}",
-         style_.prefix);
+    line(
+        "extern \"C\" void {0}(const double* psi, const double* psid, const double* input, double t, "
+        "const double* k, double* out) {{\n  {0}_run<double>(psi, psid, input, t, k, out);\n}}",
+        style_.prefix);
     if (!style_.lanes) return;
     for (int lanes : {4, 8}) export_lanes(lanes);
   }
 
   // Through copies in registers: the caller's memory is aligned for doubles only.
   void export_lanes(int lanes) {
-    line("extern \"C\" void {0}_{1}(const double* psi, const double* psid, const double* input, const double* t, "
-         "const double* k, double* out) {{\n  using Real = mixloop_lanes::Lanes{1};",
-         style_.prefix, lanes);
+    line(
+        "extern \"C\" void {0}_{1}(const double* psi, const double* psid, const double* input, const double* "
+        "t, "
+        "const double* k, double* out) {{\n  using Real = mixloop_lanes::Lanes{1};",
+        style_.prefix, lanes);
     std::string arguments;
     for (Block block : {Block::psi, Block::psid, Block::input, Block::time}) {
       constexpr const char* kNames[] = {"psi", "psid", "input", "t"};
       const char* name = kNames[static_cast<std::size_t>(block)];
       std::size_t used = 0;
       for (const ExpressionNode& n : program_.nodes)
-        if (n.op == Op::input && static_cast<Block>(n.a) == block) used = std::max<std::size_t>(used, n.b + 1);
+        if (n.op == Op::input && static_cast<Block>(n.a) == block)
+          used = std::max<std::size_t>(used, n.b + 1);
       line("  Real {0}_in[{1}] = {{}};\n  if ({2}) memcpy({0}_in, {0}, sizeof {0}_in);\n  (void){0};", name,
            std::max<std::size_t>(used, 1), used > 0 ? "true" : "false");
       arguments += fmt::format("{}_in{}, ", name, block == Block::time ? "[0]" : "");
     }
-    line("  Real results[{1}];\n  {0}_run<Real>({2}k, results);\n  memcpy(out, results, sizeof results);\n}}", style_.prefix,
-         program_.outputs.size(), arguments);
+    line("  Real results[{1}];\n  {0}_run<Real>({2}k, results);\n  memcpy(out, results, sizeof results);\n}}",
+         style_.prefix, program_.outputs.size(), arguments);
   }
 
-  void statements(Stage stage, const char* type) {
+  void name_leaves(Stage stage) {
     for (NodeId id = 0; id < program_.nodes.size(); ++id) {
       const ExpressionNode& n = program_.nodes[id];
       if (n.op == Op::constant) name_[id] = number(n.value);
       if (n.op == Op::input && program_.stages[id] == stage) name_[id] = input(n);
     }
-    const std::vector<std::vector<NodeId>> batches = angle_batches(stage);
-    std::vector<bool> written(program_.nodes.size(), false);
-    for (const std::vector<NodeId>& batch : batches) {
-      for (NodeId angle : batch) write_with_operands(angle, stage, type, written);
-      sines_and_cosines(batch, type);
+  }
+
+  // Angles first, so that their sines and cosines are under way early.
+  std::vector<Step> steps_of(Stage stage) const {
+    std::vector<Step> steps;
+    std::vector<bool> taken(program_.nodes.size(), false);
+    const auto take = [&](NodeId id) {
+      if (taken[id] || is_leaf(id) || program_.stages[id] != stage) return;
+      taken[id] = true;
+      if (!is_trigonometric(program_.nodes[id].op)) steps.push_back({id, {}});  // those with their batch
+    };
+    for (const std::vector<NodeId>& batch : angle_batches(stage)) {
+      for (NodeId angle : batch)
+        for (NodeId id : with_operands(angle, stage, taken)) take(id);
+      steps.push_back({0, batch});
     }
-    for (NodeId id = 0; id < program_.nodes.size(); ++id) write_once(id, stage, type, written);
+    for (NodeId id = 0; id < program_.nodes.size(); ++id) take(id);
+    return steps;
+  }
+
+  void statements(Stage stage, const char* type) {
+    name_leaves(stage);
+    for (const Step& step : steps_of(stage)) write(step, type);
+  }
+
+  std::vector<NodeId> takes(const Step& step) const {
+    if (!step.batch.empty()) return step.batch;
+    const ExpressionNode& n = program_.nodes[step.node];
+    return is_binary(n.op) ? std::vector{n.a, n.b} : std::vector{n.a};
+  }
+
+  std::vector<NodeId> gives(const Step& step) const {
+    if (step.batch.empty()) return {step.node};
+    std::vector<NodeId> pairs;
+    for (NodeId angle : step.batch) pairs.insert(pairs.end(), pairs_[angle].begin(), pairs_[angle].end());
+    return pairs;
+  }
+
+  void write(const Step& step, const char* type) {
+    if (!step.batch.empty()) return sines_and_cosines(step.batch, type);
+    name_[step.node] = fmt::format("v{}", step.node);
+    line("  const {} v{} = {};", type, step.node, right_side(program_.nodes[step.node]));
   }
 
   static bool is_trigonometric(Op op) { return op == Op::sin || op == Op::cos; }
-  bool is_leaf(NodeId id) const { return program_.nodes[id].op == Op::constant || program_.nodes[id].op == Op::input; }
+  bool is_leaf(NodeId id) const {
+    return program_.nodes[id].op == Op::constant || program_.nodes[id].op == Op::input;
+  }
 
   // Angles whose sines and cosines can be had together: none of a batch's angles needs another's sine.
   std::vector<std::vector<NodeId>> angle_batches(Stage stage) const {
@@ -134,35 +230,27 @@ class Writer {
     std::vector<std::vector<NodeId>> batches;
     for (const auto& level : levels)
       for (std::size_t from = 0; from < level.size(); from += kTogether)
-        batches.emplace_back(level.begin() + static_cast<std::ptrdiff_t>(from),
-                             level.begin() + static_cast<std::ptrdiff_t>(std::min(level.size(), from + kTogether)));
+        batches.emplace_back(
+            level.begin() + static_cast<std::ptrdiff_t>(from),
+            level.begin() + static_cast<std::ptrdiff_t>(std::min(level.size(), from + kTogether)));
     return batches;
   }
 
-  // What a node takes, operands first, without recursion.
-  void write_with_operands(NodeId root, Stage stage, const char* type, std::vector<bool>& written) {
+  // What a node takes that isn't taken yet, operands first, without recursion.
+  std::vector<NodeId> with_operands(NodeId root, Stage stage, const std::vector<bool>& taken) const {
     std::vector<NodeId> waiting{root}, wanted;
     std::vector<bool> seen(root + 1, false);
     while (!waiting.empty()) {
       const NodeId id = waiting.back();
       waiting.pop_back();
-      if (seen[id] || is_leaf(id) || program_.stages[id] != stage || written[id]) continue;
+      if (seen[id] || is_leaf(id) || program_.stages[id] != stage || taken[id]) continue;
       seen[id] = true;
       wanted.push_back(id);
       waiting.push_back(program_.nodes[id].a);
       if (is_binary(program_.nodes[id].op)) waiting.push_back(program_.nodes[id].b);
     }
     std::sort(wanted.begin(), wanted.end());
-    for (NodeId id : wanted) write_once(id, stage, type, written);
-  }
-
-  void write_once(NodeId id, Stage stage, const char* type, std::vector<bool>& written) {
-    const ExpressionNode& n = program_.nodes[id];
-    if (written[id] || is_leaf(id) || program_.stages[id] != stage) return;
-    written[id] = true;
-    if (is_trigonometric(n.op)) return;  // written with its batch
-    name_[id] = fmt::format("v{}", id);
-    line("  const {} v{} = {};", type, id, right_side(n));
+    return wanted;
   }
 
   static std::string input(const ExpressionNode& n) {
@@ -173,16 +261,26 @@ class Writer {
   std::string right_side(const ExpressionNode& n) const {
     const std::string& a = name_[n.a];
     switch (n.op) {
-      case Op::neg: return "-" + a;
-      case Op::add: return a + " + " + name_[n.b];
-      case Op::sub: return a + " - " + name_[n.b];
-      case Op::mul: return a + " * " + name_[n.b];
-      case Op::div: return a + " / " + name_[n.b];
-      case Op::sqrt: return fmt::format("mixloop_sqrt({})", a);
-      case Op::exp: return fmt::format("mixloop_exp({})", a);
-      case Op::log: return fmt::format("mixloop_log({})", a);
-      case Op::atan2: return fmt::format("mixloop_atan2({}, {})", lifted(n.a), lifted(n.b));
-      default: return a;
+      case Op::neg:
+        return "-" + a;
+      case Op::add:
+        return a + " + " + name_[n.b];
+      case Op::sub:
+        return a + " - " + name_[n.b];
+      case Op::mul:
+        return a + " * " + name_[n.b];
+      case Op::div:
+        return a + " / " + name_[n.b];
+      case Op::sqrt:
+        return fmt::format("mixloop_sqrt({})", a);
+      case Op::exp:
+        return fmt::format("mixloop_exp({})", a);
+      case Op::log:
+        return fmt::format("mixloop_log({})", a);
+      case Op::atan2:
+        return fmt::format("mixloop_atan2({}, {})", lifted(n.a), lifted(n.b));
+      default:
+        return a;
     }
   }
 
@@ -192,15 +290,13 @@ class Writer {
     std::string angles;
     for (NodeId angle : batch) angles += (angles.empty() ? "" : ", ") + name_[angle];
     const std::size_t first = batches_++, count = batch.size();
-    line("  const {0} a{1}[] = {{{2}}};\n  {0} s{1}[{3}], c{1}[{3}];\n  mixloop_sincos::sincos_of<{3}>(a{1}, s{1}, c{1});",
-         type, first, angles, count);
-    for (NodeId id = 0; id < program_.nodes.size(); ++id) {
-      const ExpressionNode& n = program_.nodes[id];
-      if (!is_trigonometric(n.op)) continue;
-      const auto place = std::find(batch.begin(), batch.end(), n.a);
-      if (place != batch.end())
-        name_[id] = fmt::format("{}{}[{}]", n.op == Op::sin ? 's' : 'c', first, place - batch.begin());
-    }
+    line(
+        "  const {0} a{1}[] = {{{2}}};\n  {0} s{1}[{3}], c{1}[{3}];\n  mixloop_sincos::sincos_of<{3}>(a{1}, "
+        "s{1}, c{1});",
+        type, first, angles, count);
+    for (std::size_t i = 0; i < count; ++i)
+      for (NodeId id : pairs_[batch[i]])
+        name_[id] = fmt::format("{}{}[{}]", program_.nodes[id].op == Op::sin ? 's' : 'c', first, i);
   }
 
   const Program& program_;
@@ -208,7 +304,8 @@ class Writer {
   std::vector<NodeId> hoisted_;
   std::vector<std::string> name_;
   std::string text_;
-  std::size_t batches_ = 0;
+  std::vector<std::vector<NodeId>> pairs_;  // of each angle, its sine and cosine
+  std::size_t batches_ = 0, slots_ = 0;
   bool in_run_ = false;
 };
 
@@ -234,6 +331,11 @@ MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount],
 )";
 
 constexpr const char* kFunctions = R"(
+#if defined(__GNUC__)
+#define MIXLOOP_PART inline __attribute__((noinline))
+#else
+#define MIXLOOP_PART inline
+#endif
 namespace {
 template <class Real>
 inline Real mixloop_lift(double x) { return x - Real(); }
@@ -254,6 +356,8 @@ std::string source_head(const SourceStyle& style) {
   return head;
 }
 
-std::string source_of(const Program& program, const SourceStyle& style) { return Writer(program, style).write(); }
+std::string source_of(const Program& program, const SourceStyle& style) {
+  return Writer(program, style).write();
+}
 
 }  // namespace mixloop

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/program/trace.hpp"
 
+#include "dynamics/program/short_chains.hpp"
 #include "dynamics/symbolic/derivative.hpp"
 #include "dynamics/symbolic/tracer.hpp"
 
@@ -73,9 +74,14 @@ Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpos
   return nodes;
 }
 
+bool needs_forward_dynamics(Purpose purpose) {
+  return purpose == Purpose::forward_dynamics || purpose == Purpose::dynamics_and_mass_times;
+}
+
 std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, Tracing tracing) {
   switch (tracing) {
     case Tracing::recursive: return recursive_tracer(scene);
+    case Tracing::articulated: return articulated_tracer(scene);
     case Tracing::harmonic: return harmonic_tracer(scene);
     default: return literal_tracer(scene);
   }
@@ -86,9 +92,10 @@ std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, T
 Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracing tracing) {
   Graph graph;
   const Recording recording(graph);
+  if (tracing == Tracing::articulated && !needs_forward_dynamics(purpose)) return {};  // as the recursive one
   const auto tracer = make_tracer(scene, tracing);
   if (!tracer) return {};
-  return make_program(graph, outputs_of(graph, scene, purpose, *tracer));
+  return with_short_chains(make_program(graph, outputs_of(graph, scene, purpose, *tracer)));
 }
 
 double estimated_time(const OperationCount& count) {
@@ -99,6 +106,8 @@ double estimated_time(const OperationCount& count) {
 namespace {
 
 // The literal procedure's Jacobians take m columns a body: on larger scenes it is not worth recording.
+constexpr int kMostComposite = 16;
+
 bool is_small(const Scene& scene) { return scene.transforms.size() <= 8; }
 
 }  // namespace
@@ -106,8 +115,10 @@ bool is_small(const Scene& scene) { return scene.transforms.size() <= 8; }
 TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose) {
   if (purpose == Purpose::end_effector) return {trace(scene, purpose, Tracing::literal), Tracing::literal};
   TracedProgram best;
-  for (Tracing tracing : {Tracing::recursive, Tracing::harmonic, Tracing::literal}) {
+  for (Tracing tracing : {Tracing::articulated, Tracing::recursive, Tracing::harmonic, Tracing::literal}) {
     if (tracing == Tracing::literal && !is_small(*scene)) continue;
+    // Composite bodies take the square of n and more: articulated ones, where they serve, are ahead by far.
+    if (tracing == Tracing::recursive && scene->n() > kMostComposite && !best.program.outputs.empty()) continue;
     Program found = trace(scene, purpose, tracing);
     if (found.outputs.empty()) continue;
     if (best.program.outputs.empty() ||

@@ -10,9 +10,10 @@
 namespace mixloop {
 
 /// How a program's equations were written down.
-enum class Tracing : std::uint8_t { literal, recursive, harmonic };
+enum class Tracing : std::uint8_t { literal, recursive, articulated, harmonic };
 constexpr std::string_view name_of(Tracing tracing) {
-  return tracing == Tracing::literal ? "literal" : tracing == Tracing::recursive ? "recursive" : "harmonic";
+  constexpr std::string_view kNames[] = {"literal", "recursive", "articulated", "harmonic"};
+  return kNames[static_cast<std::size_t>(tracing)];
 }
 
 /// A program and the way it was traced.

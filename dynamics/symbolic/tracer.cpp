@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/symbolic/tracer.hpp"
 
-#include "dynamics/procedure/ldlt.hpp"
-
 namespace mixloop {
 
 TracedInputs::TracedInputs(const Scene& scene) : psi(scene.n()), psid(scene.n()) {
@@ -30,13 +28,41 @@ ExpressionVector Tracer::forward_dynamics(const ExpressionVector& tau) {
   return mass_inverse_times(tau - h);
 }
 
+namespace {
+
+// M = L D L^T (Golub & Van Loan, 4.1.2) with one division a column, and Y = L D kept for the next columns.
+struct Factors {
+  ExpressionMatrix L, Y;
+  ExpressionVector inverse_D;
+
+  explicit Factors(const ExpressionMatrix& M) : L(M), Y(M), inverse_D(M.rows()) {
+    for (Eigen::Index j = 0; j < M.rows(); ++j) {
+      for (Eigen::Index i = j; i < M.rows(); ++i)
+        for (Eigen::Index k = 0; k < j; ++k) Y(i, j) -= L(j, k) * Y(i, k);
+      inverse_D[j] = Expression(1.0) / Y(j, j);
+      for (Eigen::Index i = j + 1; i < M.rows(); ++i) L(i, j) = Y(i, j) * inverse_D[j];
+    }
+  }
+
+  void solve(ExpressionVector& b) const {
+    const Eigen::Index n = b.size();
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index k = 0; k < i; ++k) b[i] -= L(i, k) * b[k];
+    for (Eigen::Index i = n; i-- > 0;) {
+      b[i] = b[i] * inverse_D[i];
+      for (Eigen::Index k = i + 1; k < n; ++k) b[i] -= L(k, i) * b[k];
+    }
+  }
+};
+
+}  // namespace
+
 ExpressionMatrix Tracer::mass_inverse_times(const ExpressionMatrix& B) {
-  ExpressionMatrix L = mass_matrix();
-  factor_ldlt(L);
+  const Factors factors(mass_matrix());
   ExpressionMatrix X = B;
   for (Eigen::Index j = 0; j < B.cols(); ++j) {
     ExpressionVector column = B.col(j);
-    solve_ldlt(L, column);
+    factors.solve(column);
     X.col(j) = column;
   }
   return X;

@@ -43,6 +43,10 @@ std::unique_ptr<Tracer> literal_tracer(std::shared_ptr<const Scene> scene);
 /// Composite bodies and Newton-Euler in link frames, then C: far fewer operations on long chains.
 std::unique_ptr<Tracer> recursive_tracer(std::shared_ptr<const Scene> scene);
 
+/// Articulated bodies in link frames for forward dynamics, operations in proportion to n; the rest as the
+/// recursive tracer. nullptr unless each independent coordinate moves one joint of the tree alone.
+std::unique_ptr<Tracer> articulated_tracer(std::shared_ptr<const Scene> scene);
+
 /// Kinetic energy and potential as trigonometric polynomials of the independent angles. nullptr where the
 /// scene is none of that kind, or would take more terms than the budget.
 std::unique_ptr<Tracer> harmonic_tracer(std::shared_ptr<const Scene> scene);

@@ -11,20 +11,42 @@ using WideMatrix = Mat<Wide>;
 
 class WideProcedure {
  public:
-  WideProcedure(const std::shared_ptr<const Scene>& scene, std::span<const double> parameters, const Sample& sample)
-      : n_(scene->n()), model_(make_model<Wide>(scene, std::span<const Wide>(wide(parameters)))), workspace_(model_),
-        psi_(wide(sample.psi)), psid_(wide(sample.psid)), input_(wide(sample.input)), t_(sample.t) {}
+  WideProcedure(const std::shared_ptr<const Scene>& scene, std::span<const double> parameters,
+                const Sample& sample)
+      : n_(scene->n()),
+        model_(make_model<Wide>(scene, std::span<const Wide>(wide(parameters)))),
+        workspace_(model_),
+        psi_(wide(sample.psi)),
+        psid_(wide(sample.psid)),
+        input_(wide(sample.input)),
+        t_(sample.t) {}
 
   Oracle of(Purpose purpose) {
     switch (purpose) {
-      case Purpose::forward_dynamics: forward_dynamics(0); break;
-      case Purpose::mass_times: mass_times(0); break;
-      case Purpose::mass_matrix: put(M(), M().norm()); break;
-      case Purpose::bias: put(h(), bias_scale()); break;
-      case Purpose::inverse_dynamics: inverse_dynamics(); break;
-      case Purpose::end_effector: end_effector(); break;
-      case Purpose::energy: energy(); break;
-      case Purpose::linearisation: linearisation(); break;
+      case Purpose::forward_dynamics:
+        forward_dynamics(0);
+        break;
+      case Purpose::mass_times:
+        mass_times(0);
+        break;
+      case Purpose::mass_matrix:
+        put(M(), M().norm());
+        break;
+      case Purpose::bias:
+        put(h(), bias_scale());
+        break;
+      case Purpose::inverse_dynamics:
+        inverse_dynamics();
+        break;
+      case Purpose::end_effector:
+        end_effector();
+        break;
+      case Purpose::energy:
+        energy();
+        break;
+      case Purpose::linearisation:
+        linearisation();
+        break;
       case Purpose::dynamics_and_mass_times:
         forward_dynamics(0);
         mass_times(n_);
@@ -37,7 +59,9 @@ class WideProcedure {
   static std::vector<Wide> wide(std::span<const double> x) { return {x.begin(), x.end()}; }
   std::span<const Wide> psi() const { return psi_; }
   std::span<const Wide> psid() const { return psid_; }
-  std::span<const Wide> input(int from) const { return std::span(input_).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(n_)); }
+  std::span<const Wide> input(int from) const {
+    return std::span(input_).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(n_));
+  }
 
   WideMatrix M() { return mixloop::mass_matrix<Wide>(model_, psi(), t_, workspace_); }
   WideVector h() { return mixloop::bias<Wide>(model_, psi(), psid(), t_, workspace_); }
@@ -85,7 +109,8 @@ class WideProcedure {
   }
 
   void forward_dynamics(int from) {
-    const WideVector psidd = mixloop::forward_dynamics<Wide>(model_, psi(), psid(), input(from), t_, workspace_);
+    const WideVector psidd =
+        mixloop::forward_dynamics<Wide>(model_, psi(), psid(), input(from), t_, workspace_);
     const WideVector tau = map_of(input(from));
     put(psidd, inverse_norm() * (M().norm() * psidd.norm() + tau.norm() + bias_scale()));
   }
@@ -108,11 +133,25 @@ class WideProcedure {
     for (const auto& link : model_.links) reach += abs(link.a) + abs(link.s) + (link.prismatic ? 1 : 0);
     for (const auto& body : model_.bodies) weight += body.mass * (reach + body.center_of_mass.norm());
     put(Vec<Wide>::Constant(1, energy.kinetic), energy.kinetic);
-    put(Vec<Wide>::Constant(1, energy.potential), weight * model_.gravity.norm());
+    put(Vec<Wide>::Constant(1, energy.potential), weight * model_.gravity.norm() + spring_scale());
   }
 
-  WideVector psidd_at(const std::vector<Wide>& psi, const std::vector<Wide>& psid, const std::vector<Wide>& tau) {
-    return mixloop::forward_dynamics<Wide>(model_, psi, psid, std::span(tau).first(static_cast<std::size_t>(n_)), t_, workspace_);
+  // Of k/2 (q - rest)^2, with q as large as what it is summed from.
+  Wide spring_scale() {
+    Wide sum = 0, reach = 1;
+    for (const Wide& x : psi_) reach += abs(x);
+    for (const auto& load : model_.coordinate_loads) {
+      const Wide slopes = workspace_.C.row(load.coordinate).norm();
+      const Wide size = abs(workspace_.q[load.coordinate]) + slopes * reach + abs(load.rest);
+      sum += load.stiffness * size * size / 2;
+    }
+    return sum;
+  }
+
+  WideVector psidd_at(const std::vector<Wide>& psi, const std::vector<Wide>& psid,
+                      const std::vector<Wide>& tau) {
+    return mixloop::forward_dynamics<Wide>(
+        model_, psi, psid, std::span(tau).first(static_cast<std::size_t>(n_)), t_, workspace_);
   }
 
   // Central differences in 113 bits: good to 1e-20 or so, far below a double's round-off.

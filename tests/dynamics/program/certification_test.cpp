@@ -13,6 +13,7 @@
 #include "dynamics/program/trace.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "notation/document.hpp"
+#include "tests/oracles/chains.hpp"
 #include "tests/oracles/random_mechanism.hpp"
 
 namespace mixloop::testing {
@@ -37,10 +38,11 @@ double worst_error(const std::shared_ptr<const Scene>& scene, Purpose purpose, R
   return worst;
 }
 
-void certify(const std::shared_ptr<const Scene>& scene, const std::string& name, int states, std::uint64_t seed) {
+void certify(const std::shared_ptr<const Scene>& scene, const std::string& name, int states,
+             std::uint64_t seed) {
   for (Purpose purpose : kPurposes) {
     const double reference = worst_error(scene, purpose, *reference_routine(scene, purpose), states, seed);
-    for (Tracing tracing : {Tracing::literal, Tracing::recursive, Tracing::harmonic}) {
+    for (Tracing tracing : {Tracing::literal, Tracing::recursive, Tracing::articulated, Tracing::harmonic}) {
       Program program = trace(scene, purpose, tracing);
       if (program.outputs.empty()) continue;
       Interpreter interpreter(program);
@@ -62,12 +64,72 @@ TEST(Certification, EveryShippedSceneIsAsExactAsTheProcedure) {
 
 TEST(Certification, RandomMechanismsAreAsExactAsTheProcedure) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const oracle::MechanismKind kind{.nonlinear = seed % 3 == 0, .timed = seed % 4 == 0, .loads = seed % 2 == 0,
-                                     .springs = seed % 2 == 0, .friction = seed % 4 == 2};
+    const oracle::MechanismKind kind{.nonlinear = seed % 3 == 0,
+                                     .timed = seed % 4 == 0,
+                                     .loads = seed % 2 == 0,
+                                     .springs = seed % 2 == 0,
+                                     .friction = seed % 4 == 2};
     const oracle::RandomMechanism mechanism(seed, kind);
-    const auto scene = std::make_shared<const Scene>(load_scene(parse_document(mechanism.scene_text(), "random")));
+    const auto scene =
+        std::make_shared<const Scene>(load_scene(parse_document(mechanism.scene_text(), "random")));
     certify(scene, fmt::format("random {}", seed), 2, seed);
   }
+}
+
+// A tree whose coordinates are the motors', scaled and offset: articulated bodies trace it too.
+constexpr const char* kTree = R"(
+parameters: {load: 2 kg}
+motors: {a: rotary, b: rotary, c: rotary, d: linear, e: rotary}
+coordinates: [q1, q2, q3, q4, q5]
+constraints: {q1: 2*a - 1 + 0.1/s*t, q2: -b/4, q3: c + 0.5, q4: 0.5*d + 0.2, q5: e}
+transforms:
+  - {from: 0, to: 1, theta: q1, s: 0.2, a: 0, alpha: 90 deg}
+  - {from: 1, to: 2, theta: -q2 + 0.3, s: 0, a: 0.4, alpha: 30 deg}
+  - {from: 2, to: mount, theta: 20 deg, s: 0.1, a: 0.1, alpha: 40 deg}
+  - {from: mount, to: 3, theta: q3, s: 0.1, a: 0.3, alpha: -90 deg}
+  - {from: 2, to: 4, theta: 50 deg, s: 2*q4, a: 0.1, alpha: 60 deg}
+  - {from: 4, to: 5, theta: q5, s: 0, a: 0.2, alpha: 0}
+bodies:
+  - {frame: 1, mass: 2, center_of_mass: [0.1, 0, 0.05], inertia: {xx: 0.02, yy: 0.03, zz: 0.04, xy: 0.001}}
+  - {frame: 2, mass: 1.5, center_of_mass: [-0.2, 0.02, 0.01], inertia: {xx: 0.02, yy: 0.03, zz: 0.04, yz: 0.002}}
+  - {frame: mount, mass: 0.5, center_of_mass: [0, 0.1, 0]}
+  - {frame: 3, mass: load, center_of_mass: [-0.1, 0, 0], inertia: {xx: 0.01, yy: 0.012, zz: 0.013}}
+  - {frame: 4, mass: 0.7, center_of_mass: [0, 0, 0.1], inertia: {xx: 0.01, yy: 0.012, zz: 0.013}}
+  - {frame: 5, mass: 0.3, center_of_mass: [-0.1, 0.03, 0], inertia: {xx: 0.001, yy: 0.002, zz: 0.002}}
+loads:
+  - {frame: 3, point: [0.1, 0, 0], force: [1, 2 N/s * t, 0]}
+gravity: [0, 1, -9.81]
+end_effector: {frame: 3, point: [0, 0, 0]}
+)";
+
+TEST(Certification, ArticulatedBodiesAreAsExactOnTreesAndLongChains) {
+  const auto made = [](const std::string& text) {
+    return std::make_shared<const Scene>(load_scene(parse_document(text, "made")));
+  };
+  const auto tree = made(kTree);
+  ASSERT_FALSE(trace(tree, Purpose::forward_dynamics, Tracing::articulated).outputs.empty());
+  certify(tree, "tree", 4, 1);
+  for (const auto& scene : {made(oracle::serial_chain(12)), made(oracle::parallelogram_chain(4))}) {
+    const TracedProgram traced = trace(scene, Purpose::forward_dynamics);
+    Interpreter interpreter(traced.program);
+    const double reference = worst_error(scene, Purpose::forward_dynamics,
+                                         *reference_routine(scene, Purpose::forward_dynamics), 3, 1);
+    EXPECT_LE(worst_error(scene, Purpose::forward_dynamics, interpreter, 3, 1),
+              std::max(kMostUlps, 3.0 * reference));
+  }
+}
+
+// No blow-up: from n to 2n at most four times the operations, to n = 32; articulated bodies grow in
+// proportion.
+TEST(Certification, OperationsGrowNoFasterThanTheSquare) {
+  const auto flops = [](const std::string& text) {
+    const auto scene = std::make_shared<const Scene>(load_scene(parse_document(text, "chain")));
+    return static_cast<double>(trace(scene, Purpose::forward_dynamics).program.run_operations().flops());
+  };
+  for (int n : {4, 8, 16})
+    EXPECT_LE(flops(oracle::serial_chain(2 * n)), 4.0 * flops(oracle::serial_chain(n))) << n;
+  EXPECT_LE(flops(oracle::serial_chain(32)), 2.2 * flops(oracle::serial_chain(16)));
+  EXPECT_LE(flops(oracle::parallelogram_chain(16)), 4.0 * flops(oracle::parallelogram_chain(8)));
 }
 
 // The numbers that the project is held to: operations of the paper's robot, payload a parameter.

@@ -11,9 +11,12 @@
 #include "dynamics/evaluator.hpp"
 #include "dynamics/program/cache.hpp"
 #include "dynamics/program/interpreter.hpp"
+#include "dynamics/program/lanes.hpp"
 #include "dynamics/program/machine_code.hpp"
 #include "dynamics/program/trace.hpp"
 #include "dynamics/scene/load_scene.hpp"
+#include "notation/document.hpp"
+#include "tests/oracles/chains.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace mixloop::testing {
@@ -48,10 +51,13 @@ class MachineCodeTest : public ::testing::Test {
   }
   std::unique_ptr<MachineCode> load(int* traced = nullptr) const {
     std::string complaint;
-    auto code = MachineCode::load("key", [&] {
-      if (traced != nullptr) ++*traced;
-      return trace(robot_, Purpose::mass_matrix).program;
-    }, complaint);
+    auto code = MachineCode::load(
+        "key",
+        [&] {
+          if (traced != nullptr) ++*traced;
+          return trace(robot_, Purpose::mass_matrix).program;
+        },
+        complaint);
     EXPECT_TRUE(code) << complaint;
     return code;
   }
@@ -64,10 +70,12 @@ TEST_F(MachineCodeTest, GivesTheInterpretersBits) {
   for (const char* name : {"mixed_loop_robot", "spatial_slider_crank"}) {
     const auto scene = scene_named(name);
     const std::vector<double> parameters = scene->default_parameters();
-    for (Purpose purpose : {Purpose::forward_dynamics, Purpose::mass_times, Purpose::end_effector, Purpose::energy}) {
+    for (Purpose purpose :
+         {Purpose::forward_dynamics, Purpose::mass_times, Purpose::end_effector, Purpose::energy}) {
       const Program program = trace(scene, purpose).program;
       std::string complaint;
-      auto code = MachineCode::load(std::string(name) + std::string(name_of(purpose)), [&] { return program; }, complaint);
+      auto code = MachineCode::load(
+          std::string(name) + std::string(name_of(purpose)), [&] { return program; }, complaint);
       ASSERT_TRUE(code) << complaint;
       Interpreter interpreter(program);
       code->set_up(parameters);
@@ -75,13 +83,77 @@ TEST_F(MachineCodeTest, GivesTheInterpretersBits) {
       std::mt19937_64 random(3);
       std::vector<double> compiled(program.outputs.size()), interpreted(program.outputs.size());
       for (int k = 0; k < 200; ++k) {
-        const Sample sample = random_sample(*scene, random, k % 10 == 0 ? 1e8 : 30.0);  // also beyond the fast range
+        const Sample sample =
+            random_sample(*scene, random, k % 10 == 0 ? 1e8 : 30.0);  // also beyond the fast range
         code->evaluate(sample.arguments(), compiled.data());
         interpreter.evaluate(sample.arguments(), interpreted.data());
         ASSERT_EQ(compiled, interpreted) << name << ", " << name_of(purpose) << ", state " << k;
       }
     }
   }
+}
+
+TEST_F(MachineCodeTest, EachLaneGivesTheBitsOfItsStateAlone) {
+  for (const char* name : {"mixed_loop_robot", "spatial_slider_crank"}) {
+    const auto scene = scene_named(name);
+    const std::vector<double> parameters = scene->default_parameters();
+    const Program program = trace(scene, Purpose::forward_dynamics).program;
+    std::string complaint;
+    const auto lanes = LaneCode::load(
+        name, [&] { return program; }, complaint);
+    ASSERT_TRUE(lanes) << complaint;
+    lanes->set_up(parameters);
+    Interpreter interpreter(program);
+    interpreter.set_up(parameters);
+    const auto width = static_cast<std::size_t>(lanes->width()), n = static_cast<std::size_t>(scene->n());
+    std::mt19937_64 random(5);
+    for (int round = 0; round < 20; ++round) {
+      std::vector<double> psi(n * width), psid(psi), tau(psi), out(psi), t(width), alone(n);
+      std::vector<Sample> samples;
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        const Sample& sample =
+            samples.emplace_back(random_sample(*scene, random, round % 5 == 4 ? 1e8 : 30.0));
+        for (std::size_t i = 0; i < n; ++i) {
+          psi[i * width + lane] = sample.psi[i], psid[i * width + lane] = sample.psid[i];
+          tau[i * width + lane] = sample.input[i];
+        }
+        t[lane] = sample.t;
+      }
+      lanes->evaluate(psi.data(), psid.data(), tau.data(), t.data(), out.data());
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        interpreter.evaluate(samples[lane].arguments(), alone.data());
+        for (std::size_t i = 0; i < n; ++i)
+          ASSERT_EQ(out[i * width + lane], alone[i]) << name << ", lane " << lane;
+      }
+    }
+  }
+}
+
+// Long enough to be written in parts.
+TEST_F(MachineCodeTest, PartsOfALongProgramGiveTheInterpretersBits) {
+  const auto chain =
+      std::make_shared<const Scene>(load_scene(parse_document(oracle::serial_chain(8), "chain")));
+  Dynamics compiled(chain, {}, Evaluation::machine_code, {Purpose::forward_dynamics});
+  Dynamics interpreted(chain, {}, Evaluation::interpreter, {Purpose::forward_dynamics});
+  ASSERT_GT(trace(chain, Purpose::forward_dynamics).program.run_operations().flops(), 2000u);
+  ASSERT_EQ(compiled.evaluation(), Evaluation::machine_code);
+  std::mt19937_64 random(4);
+  std::vector<double> one(8), other(8);
+  for (int k = 0; k < 50; ++k) {
+    const Sample sample = random_sample(*chain, random);
+    const auto tau = std::span(sample.input).first(8);
+    compiled.forward_dynamics(sample.psi, sample.psid, tau, 0.0, one);
+    interpreted.forward_dynamics(sample.psi, sample.psid, tau, 0.0, other);
+    ASSERT_EQ(one, other);
+  }
+}
+
+TEST_F(MachineCodeTest, AProgramTooLongToCompileIsInterpretedAndSaysSo) {
+  const auto chain =
+      std::make_shared<const Scene>(load_scene(parse_document(oracle::serial_chain(64), "chain")));
+  const Dynamics dynamics(chain, {}, Evaluation::machine_code, {Purpose::forward_dynamics});
+  EXPECT_EQ(dynamics.evaluation(), Evaluation::interpreter);
+  EXPECT_TRUE(entries().empty());
 }
 
 TEST_F(MachineCodeTest, IsBuiltOnceAndThenFound) {
@@ -149,20 +221,53 @@ TEST_F(MachineCodeTest, TwoMayBuildAtOnce) {
 
 TEST_F(MachineCodeTest, TheInterpreterServesWithoutACompiler) {
   ::setenv("MIXLOOP_CXX", "", 1);
-  Dynamics dynamics(robot_, robot_->default_parameters(), Evaluation::machine_code, {Purpose::forward_dynamics});
+  Dynamics dynamics(robot_, robot_->default_parameters(), Evaluation::machine_code,
+                    {Purpose::forward_dynamics});
   EXPECT_EQ(dynamics.evaluation(), Evaluation::interpreter);
 }
 
-TEST_F(MachineCodeTest, AnEvaluationDoesNotAllocate) {
+TEST_F(MachineCodeTest, NoEvaluationOfAnyPurposeAllocates) {
   if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has its own malloc";
+  const std::array psi{1.0, 2.0, 3.0}, psid{0.1, 0.2, 0.3}, tau{0.5, 0.25, 0.125};
+  const std::array both{0.5, 0.25, 0.125, 0.5, 0.25, 0.125};
+  static_assert(noexcept(std::declval<Dynamics>().forward_dynamics(psi, psid, tau, 0.0, {})),
+                "no exception leaves");
   for (Evaluation how : {Evaluation::reference, Evaluation::interpreter, Evaluation::machine_code}) {
-    Dynamics dynamics(robot_, robot_->default_parameters(), how, {Purpose::forward_dynamics, Purpose::mass_times});
-    const std::array psi{1.0, 2.0, 3.0}, psid{0.1, 0.2, 0.3}, tau{0.5, 0.25, 0.125};
-    std::array<double, 3> out{};
-    AllocationCounter counter;
-    dynamics.forward_dynamics(psi, psid, tau, 0.0, out);
-    dynamics.mass_times(psi, tau, 0.0, out);
-    EXPECT_EQ(counter.count(), 0u) << name_of(how);
+    for (Purpose purpose : kPurposes) {
+      Dynamics dynamics(robot_, robot_->default_parameters(), how, {purpose});
+      std::array<double, 27> out{};
+      AllocationCounter counter;
+      switch (purpose) {
+        case Purpose::forward_dynamics:
+          dynamics.forward_dynamics(psi, psid, tau, 0.0, out);
+          break;
+        case Purpose::mass_times:
+          dynamics.mass_times(psi, tau, 0.0, out);
+          break;
+        case Purpose::mass_matrix:
+          dynamics.mass_matrix(psi, 0.0, out);
+          break;
+        case Purpose::bias:
+          dynamics.bias(psi, psid, 0.0, out);
+          break;
+        case Purpose::inverse_dynamics:
+          dynamics.inverse_dynamics(psi, psid, tau, 0.0, out);
+          break;
+        case Purpose::end_effector:
+          dynamics.end_effector(psi, psid, tau, 0.0, out);
+          break;
+        case Purpose::energy:
+          dynamics.energy(psi, psid, 0.0, out);
+          break;
+        case Purpose::linearisation:
+          dynamics.linearisation(psi, psid, tau, 0.0, out);
+          break;
+        case Purpose::dynamics_and_mass_times:
+          dynamics.dynamics_and_mass_times(psi, psid, both, 0.0, out);
+          break;
+      }
+      EXPECT_EQ(counter.count(), 0u) << name_of(how) << ", " << name_of(purpose);
+    }
   }
 }
 

@@ -21,8 +21,8 @@ bool builds(const std::string& source, const std::string& compiler, const std::s
   if (::mkdtemp(pattern.data()) == nullptr) return false;
   const fs::path directory = pattern, file = directory / "emitted.cpp";
   std::ofstream(file) << source;
-  const std::string command = compiler + " -Wall -Wextra -Wpedantic -Werror " + flags + " -c " + file.string() +
-                              " -o " + (directory / "emitted.o").string();
+  const std::string command = compiler + " -Wall -Wextra -Wpedantic -Werror " + flags + " -c " +
+                              file.string() + " -o " + (directory / "emitted.o").string();
   const bool good = std::system(command.c_str()) == 0;
   fs::remove_all(directory);
   return good;
@@ -30,7 +30,8 @@ bool builds(const std::string& source, const std::string& compiler, const std::s
 
 TEST(Source, BuildsWithoutAWarningAsCxx17) {
   for (const char* name : {"mixed_loop_robot", "spatial_slider_crank"}) {
-    const auto scene = std::make_shared<const Scene>(load_scene(fs::path(MIXLOOP_SCENES) / (std::string(name) + ".yaml")));
+    const auto scene =
+        std::make_shared<const Scene>(load_scene(fs::path(MIXLOOP_SCENES) / (std::string(name) + ".yaml")));
     for (Trigonometry trigonometry : {Trigonometry::inlined, Trigonometry::c_library}) {
       const std::string source = firmware_source(scene, {kPurposes.begin(), kPurposes.end()}, trigonometry);
       EXPECT_TRUE(builds(source, "g++", "-std=c++17 -O1")) << name;
@@ -50,14 +51,16 @@ TEST(Source, HoldsNoTextOfTheScene) {
   for (auto& parameter : scene.parameters) parameter.name = "evil";
   for (auto& body : scene.bodies) body.name = "evil";
   for (auto& frame : scene.frames) frame = "evil";
-  const std::string source = firmware_source(std::make_shared<const Scene>(scene), {Purpose::forward_dynamics}, Trigonometry::inlined);
+  const std::string source = firmware_source(std::make_shared<const Scene>(scene),
+                                             {Purpose::forward_dynamics}, Trigonometry::inlined);
   EXPECT_EQ(source.find("evil"), std::string::npos);
 }
 
 TEST(Source, IsTheSameForTheSameScene) {
   const auto scene = std::make_shared<const Scene>(load_scene(MIXLOOP_SCENES "/mixed_loop_robot.yaml"));
   const std::vector<Purpose> purposes{Purpose::forward_dynamics, Purpose::mass_times};
-  EXPECT_EQ(firmware_source(scene, purposes, Trigonometry::inlined), firmware_source(scene, purposes, Trigonometry::inlined));
+  EXPECT_EQ(firmware_source(scene, purposes, Trigonometry::inlined),
+            firmware_source(scene, purposes, Trigonometry::inlined));
 }
 
 }  // namespace

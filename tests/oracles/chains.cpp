@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "tests/oracles/chains.hpp"
+
+namespace mixloop::oracle {
+namespace {
+
+std::string number(int i) { return std::to_string(i); }
+
+/// Slightly different from one to the next, so that nothing cancels by chance.
+std::string body(int i, const std::string& frame) {
+  const std::string mass = "1." + number(10 + i % 7);
+  return "  - {frame: " + frame + ", mass: " + mass + ", center_of_mass: [-0.1" + number(1 + i % 5) +
+         ", 0.02, 0.03], inertia: {xx: 0.02, yy: 0.03" + number(i % 3) +
+         ", zz: 0.025, xy: 0.001, xz: 0.002, yz: -0.001}}\n";
+}
+
+std::string scene(const std::string& motors, const std::string& coordinates, const std::string& constraints,
+                  const std::string& transforms, const std::string& bodies, const std::string& last) {
+  return "motors: [" + motors + "]\ncoordinates: [" + coordinates + "]\nconstraints:\n" + constraints +
+         "transforms:\n" + transforms + "bodies:\n" + bodies +
+         "gravity: [0, 0, -9.81]\nend_effector: {frame: " + last + ", point: [0, 0, 0]}\n";
+}
+
+}  // namespace
+
+std::string serial_chain(int n) {
+  std::string motors, coordinates, constraints, transforms, bodies;
+  for (int i = 1; i <= n; ++i) {
+    const std::string k = number(i), comma = i > 1 ? ", " : "";
+    motors += comma + "psi" + k;
+    coordinates += comma + "q" + k;
+    constraints += "  q" + k + ": psi" + k + "\n";
+    transforms += "  - {from: " + number(i - 1) + ", to: " + k + ", theta: q" + k +
+                  ", s: 0.1, a: 0.3, alpha: " + (i % 2 == 0 ? "-90 deg" : "90 deg") + "}\n";
+    bodies += body(i, k);
+  }
+  return scene(motors, coordinates, constraints, transforms, bodies, number(n));
+}
+
+std::string parallelogram_chain(int n) {
+  std::string motors, coordinates, constraints, transforms, bodies, base = "0";
+  for (int i = 1; i <= n; ++i) {
+    const std::string k = number(i), comma = i > 1 ? ", " : "";
+    motors += comma + "psi" + k;
+    coordinates += comma + "crank" + k + ", coupler" + k + ", follower" + k;
+    constraints += "  crank" + k + ": psi" + k + "\n  coupler" + k + ": -psi" + k + "\n  follower" + k +
+                   ": psi" + k + "\n";
+    const std::string from = "  - {from: " + base + ", to: ";
+    transforms += from + "a" + k + ", theta: crank" + k + ", s: 0, a: 0.3, alpha: 0}\n";
+    transforms +=
+        "  - {from: a" + k + ", to: b" + k + ", theta: coupler" + k + ", s: 0, a: 0.2, alpha: 90 deg}\n";
+    transforms += from + "d" + k + ", theta: 0, s: 0, a: 0.2, alpha: 0}\n";
+    transforms +=
+        "  - {from: d" + k + ", to: c" + k + ", theta: follower" + k + ", s: 0, a: 0.3, alpha: 0}\n";
+    bodies += body(3 * i, "a" + k) + body(3 * i + 1, "b" + k) + body(3 * i + 2, "c" + k);
+    base = "b" + k;
+  }
+  return scene(motors, coordinates, constraints, transforms, bodies, base);
+}
+
+}  // namespace mixloop::oracle

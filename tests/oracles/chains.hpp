@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Chains of any length, as text of scenes: how programs grow with a mechanism's size.
+#pragma once
+
+#include <string>
+
+namespace mixloop::oracle {
+
+/// n revolute joints in series, their axes alternately turned by +90 and -90 degrees, a body with a full
+/// inertia tensor on each.
+std::string serial_chain(int n);
+
+/// n parallelograms, each on the coupler of the one before and in a plane at right angles to it; three bodies
+/// and three dependent coordinates a stage, the constraints linear.
+std::string parallelogram_chain(int n);
+
+}  // namespace mixloop::oracle
