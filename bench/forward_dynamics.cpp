@@ -170,6 +170,43 @@ std::string ratio_cell(std::vector<double> ratios) {
   return cell(ratios[ratios.size() / 2], "%.2f");
 }
 
+double median_ratio(const Engines& engines, const std::vector<Row>& rows, const std::string& name) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (engines[i].name != name || rows[i].ratios.empty()) continue;
+    std::vector<double> ratios = rows[i].ratios;
+    std::sort(ratios.begin(), ratios.end());
+    return ratios[ratios.size() / 2];
+  }
+  return NAN;  // a peer that isn't there
+}
+
+/// What the project is asked for, each a quotient of medians over the same yardstick.
+void print_ratios(const Engines& engines, const std::vector<Row>& rows) {
+  const std::string code = "mixloop, machine code, ", inlined = code + "inlined sincos";
+  std::string lanes;
+  for (const Engine& engine : engines)
+    if (engine.name.rfind(code, 0) == 0 && engine.name.ends_with("lanes")) lanes = engine.name;
+  const std::array<std::array<std::string, 4>, 9> asked{{
+      {inlined, "hand-tuned, 3 inlined sincos", "at most", "1.05"},
+      {inlined + ", payload a parameter", "hand-tuned, 3 inlined sincos, payload a parameter", "at most",
+       "1.05"},
+      {code + "C library sincos", "hand-tuned, 3 C library sincos", "at most", "1.05"},
+      {code + "C library sincos, payload a parameter", "hand-tuned, 3 C library sincos", "at most", "1.05"},
+      {"MuJoCo 2.2.2, couplings as its equality constraints", inlined, "at least", "50"},
+      {"Simbody 3.7, three coordinate couplers", inlined, "", ""},
+      {"textbook route in Eigen (composite body, Newton-Euler, C)", inlined, "at least", "12"},
+      {"mixloop, interpreter", inlined, "under", "8"},
+      {inlined, lanes, "over", "7"},
+  }};
+  std::printf("\n| time of | over that of | asked | measured |\n|---|---|---|---|\n");
+  for (const auto& [slow, fast, how, much] : asked) {
+    const double ratio = median_ratio(engines, rows, slow) / median_ratio(engines, rows, fast);
+    if (std::isfinite(ratio))
+      std::printf("| %s | %s | %s %s | %.2f |\n", slow.c_str(), fast.c_str(), how.c_str(), much.c_str(),
+                  ratio);
+  }
+}
+
 void print_table(const Engines& engines, const std::vector<Row>& rows) {
   std::printf("%s\n\n", machine_description().c_str());
   std::printf(
@@ -248,6 +285,7 @@ int run(int repeats) {
       time_others(engines[i], states, counts[i], rows[i]);
     }
   print_table(engines, rows);
+  print_ratios(engines, rows);
   return 0;
 }
 
