@@ -73,19 +73,27 @@ void line(const char* family, int n, const ScenePtr& scene) {
   const OperationCount count = traced.program.run_operations();
   std::string complaint;
   std::unique_ptr<MachineCode> code;
-  const std::string key = "growth " + std::to_string(Clock::now().time_since_epoch().count());  // never kept
+  const std::string key = "growth " + std::to_string(Clock::now().time_since_epoch().count());  // built anew
   const double compiling = seconds([&] {
     code = MachineCode::load(
         key, [&] { return traced.program; }, complaint);
   });
-  if (!code) std::fprintf(stderr, "%s\n", complaint.c_str()), std::exit(1);
+  if (!code && !complaint.empty()) std::fprintf(stderr, "%s\n", complaint.c_str()), std::exit(1);
+  const auto text = [](double value, const char* format) {
+    char written[32];
+    std::snprintf(written, sizeof written, format, value);
+    return std::string(written);
+  };
+  // Too long to compile: interpreted.
+  const std::string compile_time = code ? text(compiling, "%.2f") : "-";
+  const std::string compiled = code ? text(evaluation_time(*code, scene), "%.0f") : "-";
   Interpreter interpreter(traced.program);
-  const double compiled = evaluation_time(*code, scene), interpreted = evaluation_time(interpreter, scene);
+  const double interpreted = evaluation_time(interpreter, scene);
   const double procedure = evaluation_time(*reference_routine(scene, Purpose::forward_dynamics), scene);
-  std::printf("%s\t%d\t%d\t%s\t%zu\t%zu\t%s\t%s\t%.1f\t%.2f\t%.0f\t%.0f\t%.0f\n", family, n, scene->m(),
+  std::printf("%s\t%d\t%d\t%s\t%zu\t%zu\t%s\t%s\t%.1f\t%s\t%s\t%.0f\t%.0f\n", family, n, scene->m(),
               std::string(name_of(traced.tracing)).c_str(), count.flops(), count.sincos,
               flops(scene, Tracing::recursive).c_str(), flops(scene, Tracing::articulated).c_str(),
-              1e3 * tracing, compiling, compiled, interpreted, procedure);
+              1e3 * tracing, compile_time.c_str(), compiled.c_str(), interpreted, procedure);
   std::fflush(stdout);
 }
 

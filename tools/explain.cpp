@@ -36,7 +36,8 @@ nlohmann::json as_json(const Explanation& explanation) {
 }
 
 void print_table(const Explanation& explanation) {
-  fmt::print("{:<26}{:>18}{:>18}{:>8}   {:<13}{}\n", "operations + sincos", "literal", "pruned", "", "traced", "runs as");
+  fmt::print("{:<26}{:>18}{:>18}{:>8}   {:<13}{}\n", "operations + sincos", "literal", "pruned", "", "traced",
+             "runs as");
   for (const auto& quantity : explanation.quantities) {
     const auto text = [](const OperationCount& count) {
       return fmt::format("{} + {}", count.flops(), count.sincos);

@@ -168,7 +168,7 @@ std::string row_text(const Eigen::RowVectorXd& row, const Scene& scene) {
 void about_energy(const std::shared_ptr<const Scene>& scene, Graph& graph, Sentences& say) {
   const auto energy = harmonic_energy(scene, graph);
   if (!energy) {
-    say.push_back("Its energy is no small trigonometric polynomial of the independent angles: traced by composite bodies and Newton-Euler.");
+    say.push_back("Its energy is no small trigonometric polynomial of the independent angles: traced frame by frame along the tree.");
     return;
   }
   if (const auto angles = evaluation_angles(*energy)) {
@@ -200,7 +200,7 @@ std::vector<std::string> reasons_of(const std::shared_ptr<const Scene>& scene) {
   about_axes(scene, say);
   about_bodies(scene, say);
   about_energy(scene, graph, say);
-  if (scene->loads.empty()) say.push_back("No external loads.");
+  if (!scene->is_loaded()) say.push_back("No external loads.");
   if (!scene->parameters.empty()) {
     Sentences names;
     for (const auto& parameter : scene->parameters) names.push_back(parameter.name);
