@@ -21,12 +21,13 @@ set(MIXLOOP_GENERATOR_SOURCES
     program/short_chains.cpp
     program/program.cpp
     program/source.cpp
+    program/statements.cpp
     program/tape.cpp
     program/trace.cpp)
 
 set(MIXLOOP_GENERATOR_HASH "")
 file(GLOB generator_headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
-     symbolic/*.hpp procedure/*.hpp scene/*.hpp program/sincos*.hpp program/source.hpp program/short_chains.hpp ../notation/formula.hpp)
+     symbolic/*.hpp procedure/*.hpp scene/*.hpp program/sincos*.hpp program/source.hpp program/statements.hpp program/short_chains.hpp ../notation/formula.hpp)
 foreach(file IN LISTS MIXLOOP_GENERATOR_SOURCES generator_headers)
   file(SHA256 ${CMAKE_CURRENT_SOURCE_DIR}/${file} hash)
   string(SHA256 MIXLOOP_GENERATOR_HASH "${MIXLOOP_GENERATOR_HASH}${hash}")

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/program/statements.hpp"
+
 namespace mixloop {
 
 extern const char* const kSincosText;       // generated from sincos.hpp
@@ -30,9 +32,6 @@ class Writer {
   Writer(const Program& program, const SourceStyle& style)
       : program_(program), style_(style), hoisted_(program.hoisted()) {
     name_.resize(program.nodes.size());
-    pairs_.resize(program.nodes.size());
-    for (NodeId id = 0; id < program.nodes.size(); ++id)
-      if (is_trigonometric(program.nodes[id].op)) pairs_[program.nodes[id].a].push_back(id);
   }
 
   std::string write() {
@@ -43,12 +42,6 @@ class Writer {
   }
 
  private:
-  // One node, or the sines and cosines of a batch of angles.
-  struct Step {
-    NodeId node = 0;
-    std::vector<NodeId> batch;
-  };
-
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
@@ -60,7 +53,7 @@ class Writer {
     line("/* what depends on parameters alone */");
     line("extern \"C\" void {}_set_up(const double* parameters, double* k) {{", style_.prefix);
     line("  (void)parameters, (void)k;");
-    statements(Stage::set_up, "double");
+    write_all(Stage::set_up, "double");
     for (std::size_t i = 0; i < hoisted_.size(); ++i) line("  k[{}] = {};", i, name_[hoisted_[i]]);
     line("}}\n");
   }
@@ -72,7 +65,7 @@ class Writer {
     for (std::size_t i = 0; i < hoisted_.size(); ++i) name_[hoisted_[i]] = fmt::format("k[{}]", i);
     in_run_ = true;
     name_leaves(Stage::run);
-    const std::vector<Step> steps = steps_of(Stage::run);
+    const std::vector<Statement> steps = statements_.of(Stage::run);
     line("namespace {{");
     const std::size_t parts = steps.size() <= kMostSteps ? 0 : write_parts(steps);
     line("template <class Real>\ninline void {}_run({}out) {{", style_.prefix, kTakes);
@@ -81,7 +74,7 @@ class Writer {
     for (std::size_t i = 0; i < parts; ++i)
       line("  {}_part_{}<Real>(psi, psid, input, t, k, w);", style_.prefix, i);
     if (parts == 0)
-      for (const Step& step : steps) write(step, "Real");
+      for (const Statement& step : steps) write(step, "Real");
     for (std::size_t i = 0; i < program_.outputs.size(); ++i)
       line("  out[{}] = {};", i, as_real(program_.outputs[i]));
     line("}}\n}}  // namespace\n");
@@ -89,11 +82,11 @@ class Writer {
 
   // A long program in functions of their own, what one leaves for the next in w: the compiler's time grows
   // faster than a function's length. Returns how many.
-  std::size_t write_parts(const std::vector<Step>& steps) {
+  std::size_t write_parts(const std::vector<Statement>& steps) {
     const std::size_t count = (steps.size() + kMostSteps - 1) / kMostSteps;
     std::vector<std::size_t> last(program_.nodes.size(), 0);  // the part that uses a value last
     for (std::size_t s = 0; s < steps.size(); ++s)
-      for (NodeId id : takes(steps[s])) last[id] = s / kMostSteps;
+      for (NodeId id : statements_.takes(steps[s])) last[id] = s / kMostSteps;
     for (NodeId output : program_.outputs) last[output] = count;
     std::vector<std::vector<std::size_t>> freed(count + 1);
     std::vector<std::size_t> idle;
@@ -102,9 +95,9 @@ class Writer {
       line("  (void)psi, (void)psid, (void)input, (void)t, (void)k;");
       const auto from = steps.begin() + static_cast<std::ptrdiff_t>(part * kMostSteps);
       const auto to = part + 1 == count ? steps.end() : from + static_cast<std::ptrdiff_t>(kMostSteps);
-      std::for_each(from, to, [&](const Step& step) { write(step, "Real"); });
+      std::for_each(from, to, [&](const Statement& step) { write(step, "Real"); });
       for (auto step = from; step != to; ++step)
-        for (NodeId id : gives(*step)) {
+        for (NodeId id : statements_.gives(*step)) {
           if (last[id] <= part) continue;
           std::size_t slot = slots_;
           if (idle.empty())
@@ -138,9 +131,8 @@ class Writer {
   // Through copies in registers: the caller's memory is aligned for doubles only.
   void export_lanes(int lanes) {
     line(
-        "extern \"C\" void {0}_{1}(const double* psi, const double* psid, const double* input, const double* "
-        "t, "
-        "const double* k, double* out) {{\n  using Real = mixloop_lanes::Lanes{1};",
+        "extern \"C\" void {0}_{1}(const double* psi, const double* psid, const double* input, "
+        "const double* t, const double* k, double* out) {{\n  using Real = mixloop_lanes::Lanes{1};",
         style_.prefix, lanes);
     std::string arguments;
     for (Block block : {Block::psi, Block::psid, Block::input, Block::time}) {
@@ -166,91 +158,15 @@ class Writer {
     }
   }
 
-  // Angles first, so that their sines and cosines are under way early.
-  std::vector<Step> steps_of(Stage stage) const {
-    std::vector<Step> steps;
-    std::vector<bool> taken(program_.nodes.size(), false);
-    const auto take = [&](NodeId id) {
-      if (taken[id] || is_leaf(id) || program_.stages[id] != stage) return;
-      taken[id] = true;
-      if (!is_trigonometric(program_.nodes[id].op)) steps.push_back({id, {}});  // those with their batch
-    };
-    for (const std::vector<NodeId>& batch : angle_batches(stage)) {
-      for (NodeId angle : batch)
-        for (NodeId id : with_operands(angle, stage, taken)) take(id);
-      steps.push_back({0, batch});
-    }
-    for (NodeId id = 0; id < program_.nodes.size(); ++id) take(id);
-    return steps;
-  }
-
-  void statements(Stage stage, const char* type) {
+  void write_all(Stage stage, const char* type) {
     name_leaves(stage);
-    for (const Step& step : steps_of(stage)) write(step, type);
+    for (const Statement& step : statements_.of(stage)) write(step, type);
   }
 
-  std::vector<NodeId> takes(const Step& step) const {
-    if (!step.batch.empty()) return step.batch;
-    const ExpressionNode& n = program_.nodes[step.node];
-    return is_binary(n.op) ? std::vector{n.a, n.b} : std::vector{n.a};
-  }
-
-  std::vector<NodeId> gives(const Step& step) const {
-    if (step.batch.empty()) return {step.node};
-    std::vector<NodeId> pairs;
-    for (NodeId angle : step.batch) pairs.insert(pairs.end(), pairs_[angle].begin(), pairs_[angle].end());
-    return pairs;
-  }
-
-  void write(const Step& step, const char* type) {
+  void write(const Statement& step, const char* type) {
     if (!step.batch.empty()) return sines_and_cosines(step.batch, type);
     name_[step.node] = fmt::format("v{}", step.node);
     line("  const {} v{} = {};", type, step.node, right_side(program_.nodes[step.node]));
-  }
-
-  static bool is_trigonometric(Op op) { return op == Op::sin || op == Op::cos; }
-  bool is_leaf(NodeId id) const {
-    return program_.nodes[id].op == Op::constant || program_.nodes[id].op == Op::input;
-  }
-
-  // Angles whose sines and cosines can be had together: none of a batch's angles needs another's sine.
-  std::vector<std::vector<NodeId>> angle_batches(Stage stage) const {
-    constexpr std::size_t kTogether = 4;
-    std::vector<int> depth(program_.nodes.size(), 0);
-    std::vector<std::vector<NodeId>> levels;
-    for (NodeId id = 0; id < program_.nodes.size(); ++id) {
-      const ExpressionNode& n = program_.nodes[id];
-      if (is_leaf(id) || program_.stages[id] != stage) continue;
-      depth[id] = std::max(depth[n.a], is_binary(n.op) ? depth[n.b] : 0) + is_trigonometric(n.op);
-      if (!is_trigonometric(n.op)) continue;
-      levels.resize(std::max(levels.size(), static_cast<std::size_t>(depth[id])));
-      auto& level = levels[static_cast<std::size_t>(depth[id]) - 1];
-      if (std::find(level.begin(), level.end(), n.a) == level.end()) level.push_back(n.a);
-    }
-    std::vector<std::vector<NodeId>> batches;
-    for (const auto& level : levels)
-      for (std::size_t from = 0; from < level.size(); from += kTogether)
-        batches.emplace_back(
-            level.begin() + static_cast<std::ptrdiff_t>(from),
-            level.begin() + static_cast<std::ptrdiff_t>(std::min(level.size(), from + kTogether)));
-    return batches;
-  }
-
-  // What a node takes that isn't taken yet, operands first, without recursion.
-  std::vector<NodeId> with_operands(NodeId root, Stage stage, const std::vector<bool>& taken) const {
-    std::vector<NodeId> waiting{root}, wanted;
-    std::vector<bool> seen(root + 1, false);
-    while (!waiting.empty()) {
-      const NodeId id = waiting.back();
-      waiting.pop_back();
-      if (seen[id] || is_leaf(id) || program_.stages[id] != stage || taken[id]) continue;
-      seen[id] = true;
-      wanted.push_back(id);
-      waiting.push_back(program_.nodes[id].a);
-      if (is_binary(program_.nodes[id].op)) waiting.push_back(program_.nodes[id].b);
-    }
-    std::sort(wanted.begin(), wanted.end());
-    return wanted;
   }
 
   static std::string input(const ExpressionNode& n) {
@@ -295,16 +211,16 @@ class Writer {
         "s{1}, c{1});",
         type, first, angles, count);
     for (std::size_t i = 0; i < count; ++i)
-      for (NodeId id : pairs_[batch[i]])
+      for (NodeId id : statements_.pair_of(batch[i]))
         name_[id] = fmt::format("{}{}[{}]", program_.nodes[id].op == Op::sin ? 's' : 'c', first, i);
   }
 
   const Program& program_;
   const SourceStyle& style_;
+  Statements statements_{program_};
   std::vector<NodeId> hoisted_;
   std::vector<std::string> name_;
   std::string text_;
-  std::vector<std::vector<NodeId>> pairs_;  // of each angle, its sine and cosine
   std::size_t batches_ = 0, slots_ = 0;
   bool in_run_ = false;
 };

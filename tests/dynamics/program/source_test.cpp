@@ -9,6 +9,8 @@
 
 #include "dynamics/program/firmware.hpp"
 #include "dynamics/scene/load_scene.hpp"
+#include "notation/document.hpp"
+#include "tests/oracles/chains.hpp"
 
 namespace mixloop {
 namespace {
@@ -40,6 +42,14 @@ TEST(Source, BuildsWithoutAWarningAsCxx17) {
       }
     }
   }
+}
+
+// Long programs are written in parts.
+TEST(Source, ALongProgramBuildsWithoutAWarning) {
+  const auto chain = std::make_shared<const Scene>(load_scene(parse_document(oracle::serial_chain(6), "chain")));
+  const std::string source = firmware_source(chain, {Purpose::forward_dynamics}, Trigonometry::inlined);
+  ASSERT_NE(source.find("_part_1"), std::string::npos);
+  EXPECT_TRUE(builds(source, "g++", "-std=c++17 -O1"));
 }
 
 // A scene is data: none of its words may become code, not even in a comment.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/program/statements.hpp"
+
+#include <algorithm>
+
+namespace mixloop {
+namespace {
+
+using Stage = Program::Stage;
+
+bool is_trigonometric(Op op) { return op == Op::sin || op == Op::cos; }
+
+}  // namespace
+
+Statements::Statements(const Program& program) : program_(program), pairs_(program.nodes.size()) {
+  for (NodeId id = 0; id < program.nodes.size(); ++id)
+    if (is_trigonometric(program.nodes[id].op)) pairs_[program.nodes[id].a].push_back(id);
+}
+
+std::vector<Statement> Statements::of(Stage stage) const {
+  std::vector<Statement> steps;
+  std::vector<bool> taken(program_.nodes.size(), false);
+  const auto take = [&](NodeId id) {
+    if (taken[id] || is_leaf(id) || program_.stages[id] != stage) return;
+    taken[id] = true;
+    if (!is_trigonometric(program_.nodes[id].op)) steps.push_back({id, {}});  // those with their batch
+  };
+  for (const std::vector<NodeId>& batch : angle_batches(stage)) {
+    for (NodeId angle : batch)
+      for (NodeId id : with_operands(angle, stage, taken)) take(id);
+    steps.push_back({0, batch});
+  }
+  for (NodeId id = 0; id < program_.nodes.size(); ++id) take(id);
+  return steps;
+}
+
+std::vector<NodeId> Statements::takes(const Statement& step) const {
+  if (!step.batch.empty()) return step.batch;
+  const ExpressionNode& n = program_.nodes[step.node];
+  return is_binary(n.op) ? std::vector{n.a, n.b} : std::vector{n.a};
+}
+
+std::vector<NodeId> Statements::gives(const Statement& step) const {
+  if (step.batch.empty()) return {step.node};
+  std::vector<NodeId> pairs;
+  for (NodeId angle : step.batch) pairs.insert(pairs.end(), pairs_[angle].begin(), pairs_[angle].end());
+  return pairs;
+}
+
+bool Statements::is_leaf(NodeId id) const {
+  return program_.nodes[id].op == Op::constant || program_.nodes[id].op == Op::input;
+}
+
+// Angles whose sines and cosines can be had together: none of a batch's angles needs another's sine.
+std::vector<std::vector<NodeId>> Statements::angle_batches(Stage stage) const {
+  constexpr std::size_t kTogether = 4;
+  std::vector<int> depth(program_.nodes.size(), 0);
+  std::vector<std::vector<NodeId>> levels;
+  for (NodeId id = 0; id < program_.nodes.size(); ++id) {
+    const ExpressionNode& n = program_.nodes[id];
+    if (is_leaf(id) || program_.stages[id] != stage) continue;
+    depth[id] = std::max(depth[n.a], is_binary(n.op) ? depth[n.b] : 0) + is_trigonometric(n.op);
+    if (!is_trigonometric(n.op)) continue;
+    levels.resize(std::max(levels.size(), static_cast<std::size_t>(depth[id])));
+    auto& level = levels[static_cast<std::size_t>(depth[id]) - 1];
+    if (std::find(level.begin(), level.end(), n.a) == level.end()) level.push_back(n.a);
+  }
+  std::vector<std::vector<NodeId>> batches;
+  for (const auto& level : levels)
+    for (std::size_t from = 0; from < level.size(); from += kTogether)
+      batches.emplace_back(
+          level.begin() + static_cast<std::ptrdiff_t>(from),
+          level.begin() + static_cast<std::ptrdiff_t>(std::min(level.size(), from + kTogether)));
+  return batches;
+}
+
+// What a node takes that isn't taken yet, operands first, without recursion.
+std::vector<NodeId> Statements::with_operands(NodeId root, Stage stage,
+                                              const std::vector<bool>& taken) const {
+  std::vector<NodeId> waiting{root}, wanted;
+  std::vector<bool> seen(root + 1, false);
+  while (!waiting.empty()) {
+    const NodeId id = waiting.back();
+    waiting.pop_back();
+    if (seen[id] || is_leaf(id) || program_.stages[id] != stage || taken[id]) continue;
+    seen[id] = true;
+    wanted.push_back(id);
+    waiting.push_back(program_.nodes[id].a);
+    if (is_binary(program_.nodes[id].op)) waiting.push_back(program_.nodes[id].b);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  return wanted;
+}
+
+}  // namespace mixloop
