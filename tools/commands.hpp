@@ -14,5 +14,6 @@ void add_explain_command(CLI::App& app, int& status);
 void add_compile_command(CLI::App& app, int& status);
 void add_stability_command(CLI::App& app, int& status);
 void add_spy_command(CLI::App& app, int& status);
+void add_doctor_command(CLI::App& app, int& status);
 
 }  // namespace mixloop
