@@ -277,6 +277,19 @@ TEST_F(Controller, answers_past_the_last_tick_where_the_plant_holds) {
   expect_command(4, 4);
 }
 
+TEST_F(Controller, answers_at_ticks_past_2_to_the_40) {
+  PeerOptions options = kOptions;
+  options.session = kScriptSession;
+  start(options);
+  for (const std::int64_t tick : {(std::int64_t{1} << 40) + 1, (std::int64_t{1} << 40) + 2}) {
+    auto state = ScriptedPeer::message<state_t>(tick);
+    state.flags = state_t::FLAG_HOLD;
+    script_.send("STATE", state);
+    script_.send_reference(tick, 4);
+    expect_command(tick, 4);
+  }
+}
+
 TEST_F(Controller, honours_a_stop_from_anyone_even_a_malformed_one) {
   start();
   script_.send_state(0);
@@ -336,6 +349,14 @@ TEST_F(Planner, sends_both_for_a_repeated_and_for_a_skipped_tick) {
   script_.send_end();
   EXPECT_EQ(peer_->ending(), Ending::finished);
   EXPECT_EQ(peer_->peer.report().rejects.stale, 1U);
+}
+
+TEST_F(Planner, goes_on_past_tick_2_to_the_40_to_the_microsecond) {
+  start();
+  auto state = ScriptedPeer::message<state_t>((std::int64_t{1} << 40) + 1);
+  state.flags = state_t::FLAG_HOLD;
+  script_.send("STATE", state);
+  expect_references({state.seq, state.seq + 1});
 }
 
 TEST_F(Planner, that_joins_late_sends_both) {

@@ -19,7 +19,8 @@ bool full_length() {
 
 std::string text_of(const char* name, std::span<const double> values) {
   std::string text = fmt::format("{} =", name);
-  for (const double value : values) text += fmt::format("{} {:.17g}", &value == values.data() ? "" : ",", value);
+  for (const double value : values)
+    text += fmt::format("{} {:.17g}", &value == values.data() ? "" : ",", value);
   return text;
 }
 

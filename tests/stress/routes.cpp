@@ -40,7 +40,8 @@ std::vector<Route> routes(const std::shared_ptr<const Scene>& scene, Purpose pur
   if (!machine_code) return all;
   std::string complaint;
   const std::string key = std::string(name_of(purpose)) + "\n" + scene->canonical;
-  if (auto code = MachineCode::load(key, [&] { return program; }, complaint))
+  if (auto code = MachineCode::load(
+          key, [&] { return program; }, complaint))
     all.push_back({"machine_code", std::move(code)});
   return all;
 }
@@ -65,7 +66,8 @@ BodySizes body_sizes(const Model<double>& model, const Workspace<double>& ws, co
     const int j = link.coordinate;
     const double scale = std::abs(link.scale);
     double terms = std::abs(ws.q[j]);
-    for (int i = 0; i < model.n(); ++i) terms += std::abs(ws.C(j, i) * state.psi[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < model.n(); ++i)
+      terms += std::abs(ws.C(j, i) * state.psi[static_cast<std::size_t>(i)]);
     if (link.prismatic)
       R += scale * terms, v += scale * std::abs(ws.qd[j]), b_linear += scale * std::abs(ws.q_bias[j]);
     else
@@ -81,7 +83,9 @@ BodySizes body_sizes(const Model<double>& model, const Workspace<double>& ws, co
 
 double evaluated(const Formula& formula, const Model<double>& model, double t) {
   return evaluate<double>(formula, [&](int symbol) {
-    return symbol == Symbols::kTime ? t : model.parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)];
+    return symbol == Symbols::kTime
+               ? t
+               : model.parameters[static_cast<std::size_t>(symbol - Symbols::kParameter0)];
   });
 }
 
@@ -110,8 +114,9 @@ Sizes sizes(const Model<double>& model, const State& state, Workspace<double>& w
   }
   for (const auto& load : model.coordinate_loads) {
     const int j = load.coordinate;
-    sum.h += (load.stiffness * (std::abs(ws.q[j]) + std::abs(load.rest)) + load.damping * std::abs(ws.qd[j])) *
-             ws.C.row(j).cwiseAbs().transpose();
+    sum.h +=
+        (load.stiffness * (std::abs(ws.q[j]) + std::abs(load.rest)) + load.damping * std::abs(ws.qd[j])) *
+        ws.C.row(j).cwiseAbs().transpose();
   }
   return sum;
 }
@@ -119,9 +124,14 @@ Sizes sizes(const Model<double>& model, const State& state, Workspace<double>& w
 Ruler::Ruler(std::shared_ptr<const Scene> scene, std::vector<double> parameters)
     : scene_(std::move(scene)),
       parameters_(std::move(parameters)),
-      model_(std::make_unique<Model<double>>(make_model<double>(scene_, std::span<const double>(parameters_)))),
+      model_(
+          std::make_unique<Model<double>>(make_model<double>(scene_, std::span<const double>(parameters_)))),
       ws_(std::make_unique<Workspace<double>>(*model_)) {}
 Ruler::~Ruler() = default;
+
+double Ruler::unit(const Sizes& sizes) {
+  return std::numeric_limits<double>::epsilon() * (1 + sizes.angle / 32);
+}
 
 Sizes Ruler::sizes_at(const State& state) { return sizes(*model_, state, *ws_); }
 
@@ -131,8 +141,7 @@ testing::Sample sample_of(const State& state) { return {state.psi, state.psid, s
 
 double norm_over(const std::vector<double>& x, const Vector& scale) {
   double sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    sum += std::pow(x[i] * scale[static_cast<Eigen::Index>(i)], 2);
+  for (std::size_t i = 0; i < x.size(); ++i) sum += std::pow(x[i] * scale[static_cast<Eigen::Index>(i)], 2);
   return std::sqrt(sum);
 }
 
@@ -161,7 +170,7 @@ double Ruler::unit_of_acceleration(const State& state, std::span<const double> p
   const Sizes sizes = sizes_at(state);
   const Vector over = sizes.M.cwiseInverse();
   std::vector<double> h(sizes.h.begin(), sizes.h.end());
-  return std::numeric_limits<double>::epsilon() * (1 + sizes.angle / 32) * inverse_norm(state, sizes) *
+  return unit(sizes) * inverse_norm(state, sizes) *
          (norm_over({psidd.begin(), psidd.end()}, sizes.M) + norm_over(h, over) +
           norm_over({tau.begin(), tau.end()}, over));
 }
@@ -176,15 +185,14 @@ double Ruler::error(Purpose purpose, const State& state, std::span<const double>
   const Sizes size = sizes_at(state);
   const auto M = [&](std::size_t i) { return size.M[static_cast<Eigen::Index>(i)]; };
   const auto h = [&](std::size_t i) { return size.h[static_cast<Eigen::Index>(i)]; };
-  const double eps = std::numeric_limits<double>::epsilon() * (1 + size.angle / 32);
+  const double eps = unit(size);
   std::vector<double> error, value;
   for (std::size_t k = 0; k < exact.size(); ++k) {
     error.push_back(static_cast<double>(Wide(outputs[k]) - exact[k]));
     value.push_back(static_cast<double>(exact[k]));
   }
   if (purpose == Purpose::forward_dynamics)
-    return norm_over(error, size.M) /
-           unit_of_acceleration(state, value, std::span(state.input).first(n));
+    return norm_over(error, size.M) / unit_of_acceleration(state, value, std::span(state.input).first(n));
   double worst = 0, moved = 0;
   for (std::size_t j = 0; j < n; ++j) moved += M(j) * std::abs(cut.input[j]);
   for (std::size_t k = 0; k < error.size(); ++k) {

@@ -43,16 +43,17 @@ std::vector<Route> routes(const std::shared_ptr<const Scene>& scene, Purpose pur
 ///   w = sum |q'_j|, b = sum |q''_j where psi'' = 0|  ->  |Ap| <= R w^2 + 2 w v + R b, |Ao| <= w^2 + b
 ///   the terms of h_i <= sum_bodies m g_i (|Ap| + |gravity|) + |I| k_i |Ao|, and loads and springs
 struct Sizes {
-  Vector M, h;       ///< n
-  double angle = 0;  ///< the largest sum of the terms of a body's angles, rad: rounded, it turns by eps times that
+  Vector M, h;  ///< n
+  double angle =
+      0;  ///< the largest sum of the terms of a body's angles, rad: rounded, it turns by eps times that
 };
 Sizes sizes(const Model<double>& model, const State& state, Workspace<double>& ws);
 
 /// Holds outputs to the literal procedure in 113 bits.
 ///
 /// The unit is eps times the natural scale, times the condition number where M is solved with. Scaled by
-/// S = diag(1 / M_i), M~ = S M S has terms of size 1 (such a scaling leaves nearly the least condition number,
-/// van der Sluis, Numer. Math. 14, 1969) and x~ = S^-1 psi'' obeys
+/// S = diag(1 / M_i), M~ = S M S has terms of size 1 (such a scaling leaves nearly the least condition
+/// number, van der Sluis, Numer. Math. 14, 1969) and x~ = S^-1 psi'' obeys
 ///   |dx~| <= |M~^-1| (|dM~| |x~| + |dh~| + eps |tau~|),
 /// so that the unit of psi'' is eps |M~^-1| (|x~| + |h~| + |tau~|), of M_ij eps M_i M_j, of h_i eps h_i, of
 /// tau_i eps (M_i sum M_j |a_j| + h_i). Angles of some size are rounded themselves: all times 1 + angle / 32.
@@ -67,6 +68,8 @@ class Ruler {
   double condition() const { return condition_; }
   /// The sizes at a state.
   Sizes sizes_at(const State& state);
+  /// eps (1 + angle / 32).
+  static double unit(const Sizes& sizes);
   /// The error of psi'' that a relative error of one eps in every term brings, |dx~|, at these psi''.
   double unit_of_acceleration(const State& state, std::span<const double> psidd, std::span<const double> tau);
 
@@ -80,17 +83,17 @@ class Ruler {
   double condition_ = 0;
 };
 
-/// The bound of all errors in those units, for chains of up to 8 frames, 10 bodies and 8 coordinates, n <= 4. Roundings
-/// in first order, in u = eps/2 (Higham, Accuracy and Stability of Numerical Algorithms, 3.1):
+/// The bound of all errors in those units, for chains of up to 8 frames, 10 bodies and 8 coordinates, n <= 4.
+/// Roundings in first order, in u = eps/2 (Higham, Accuracy and Stability of Numerical Algorithms, 3.1):
 ///   D: and its product 4 u a frame, the point 4 u                         36 u
 ///   an angle's rounding                                                         see 1 + angle / 32
 ///   m D^T D, O^T I O: twice D's, 6 more; the sum over bodies 10                 88 u
 ///   C and C^T (...) C: 2 (m + 4)                                               112 u
 ///   h: V' has two products a frame for D's one                                  150 u
 ///   M^-1: LDL^T 3 n u |L||D||L^T| <= 3 n^2 u; M's own error in norm n times     450 u
-/// That no two cancel, and all are as large as they can be, never happens: k roundings add up to lambda sqrt(k) u but
-/// with probability 2 exp(-lambda^2 / 2) (Higham & Mary, SIAM J. Sci. Comput. 41, 2019). lambda = 6, 3e-8: 6 sqrt(450)
-/// u = 64 eps. What is lost otherwise, digits, shows.
+/// That no two cancel, and all are as large as they can be, never happens: k roundings add up to lambda
+/// sqrt(k) u but with probability 2 exp(-lambda^2 / 2) (Higham & Mary, SIAM J. Sci. Comput. 41, 2019). lambda
+/// = 6, 3e-8: 6 sqrt(450) u = 64 eps. What is lost otherwise, digits, shows.
 constexpr double kMostUnits = 64;
 
 }  // namespace mixloop::stress
