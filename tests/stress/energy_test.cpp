@@ -11,7 +11,6 @@
 #include "dynamics/evaluator.hpp"
 #include "loop/simulate.hpp"
 #include "loop/truth.hpp"
-#include "plant/rk4.hpp"
 #include "tests/stress/figure.hpp"
 #include "tests/stress/routes.hpp"
 #include "tests/stress/scenes.hpp"
@@ -21,42 +20,31 @@ namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-/// The paper's robot let go: no torque, no friction, 5 kg in its hand, swinging about its rest.
+/// The paper's robot let go at home: no torque, no friction, 5 kg in its hand. A tick is a step.
 class FreeRobot {
  public:
-  FreeRobot()
+  explicit FreeRobot(double h)
       : scene_(papers_robot()),
-        dynamics_(scene_, scene_->default_parameters(), Evaluation::machine_code,
-                  {Purpose::forward_dynamics, Purpose::energy}),
-        x_(Vector::Zero(6)),
-        rk4_(6) {
-    for (int i = 0; i < 3; ++i) x_[i] = scene_->home[static_cast<std::size_t>(i)];
-    x_.tail(3) << 1, -2, 3;
+        energies_(scene_, scene_->default_parameters(), Evaluation::machine_code, {Purpose::energy}),
+        plant_(Dynamics(scene_, scene_->default_parameters(), Evaluation::machine_code,
+                        {Purpose::forward_dynamics}),
+               {}, 1 / h, scene_->home) {
+    plant_.command(std::array<double, 3>{});
   }
 
-  void step(double h) {
-    rk4_step(
-        x_, h,
-        [this](int, double, const Vector& x, Vector& dx) {
-          dx.head(3) = x.tail(3);
-          dynamics_.forward_dynamics({x.data(), 3}, {x.data() + 3, 3}, kNoTorque, 0, {dx.data() + 3, 3});
-        },
-        rk4_);
-  }
+  void step() { plant_.advance(); }
   /// Kinetic and potential.
   std::array<double, 2> energy() {
     std::array<double, 2> parts{};
-    dynamics_.energy({x_.data(), 3}, {x_.data() + 3, 3}, 0, parts);
+    energies_.energy(plant_.psi(), plant_.psid(), 0, parts);
     return parts;
   }
-  std::string text() const { return text_of("psi, psid", span_of(x_)); }
+  std::string text() const { return text_of("psi", plant_.psi()) + "; " + text_of("psid", plant_.psid()); }
 
  private:
-  static constexpr std::array<double, 3> kNoTorque{};
   SharedScene scene_;
-  Dynamics dynamics_;
-  Vector x_;
-  Rk4Workspace rk4_;
+  Dynamics energies_;
+  Plant plant_;
 };
 
 struct Drift {
@@ -65,14 +53,14 @@ struct Drift {
 };
 
 Drift drift_over(double seconds, double h, Figure* figure) {
-  FreeRobot robot;
+  FreeRobot robot(h);
   const auto start = robot.energy();
   double most_kinetic = 0, most = 0;
   const auto begun = std::clock();
   const auto steps = static_cast<std::int64_t>(std::llround(seconds / h)),
              stride = std::max<std::int64_t>(1, steps / 100000);
   for (std::int64_t k = 1; k <= steps; ++k) {
-    robot.step(h);
+    robot.step();
     if (k % stride != 0 && k > 1000) continue;
     const auto [kinetic, potential] = robot.energy();
     const double change = std::abs(kinetic - start[0] + (potential - start[1]));
