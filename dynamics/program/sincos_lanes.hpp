@@ -9,11 +9,13 @@ struct Vectors;
 template <>
 struct Vectors<4> {
   typedef double Real __attribute__((vector_size(32)));
+  typedef double Loose __attribute__((vector_size(32), aligned(8), may_alias));  // as a caller's doubles lie
   typedef int64_t Bits __attribute__((vector_size(32)));
 };
 template <>
 struct Vectors<8> {
   typedef double Real __attribute__((vector_size(64)));
+  typedef double Loose __attribute__((vector_size(64), aligned(8), may_alias));
   typedef int64_t Bits __attribute__((vector_size(64)));
 };
 using Lanes4 = Vectors<4>::Real;
@@ -25,27 +27,40 @@ MIXLOOP_INLINE typename Vectors<kLanes>::Real lane_by_lane(typename Vectors<kLan
   return x;
 }
 
+template <int kLanes>
+__attribute__((noinline, cold)) void one_by_one(const typename Vectors<kLanes>::Real* x,
+                                                typename Vectors<kLanes>::Real* sine,
+                                                typename Vectors<kLanes>::Real* cosine) {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    double s, c;
+    mixloop_sincos::sincos((*x)[lane], &s, &c);
+    (*sine)[lane] = s;
+    (*cosine)[lane] = c;
+  }
+}
+
 template <int kLanes, int kCount>
 MIXLOOP_INLINE void sincos_of(const typename Vectors<kLanes>::Real (&x)[kCount],
                               typename Vectors<kLanes>::Real (&sine)[kCount],
                               typename Vectors<kLanes>::Real (&cosine)[kCount]) {
+  using Real = typename Vectors<kLanes>::Real;
   using Bits = typename Vectors<kLanes>::Bits;
   constexpr int64_t kMagnitude = INT64_MAX;
-  typename Vectors<kLanes>::Real sum = {};
+  Real sum = {};
+#pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
     mixloop_sincos::small_sincos<Bits>(x[i], sine[i], cosine[i]);
-    sum += (typename Vectors<kLanes>::Real)((Bits)x[i] & kMagnitude);
+    sum += (Real)((Bits)x[i] & kMagnitude);
   }
   double all = 0.0;
   for (int lane = 0; lane < kLanes; ++lane) all += sum[lane];
   if (__builtin_expect(all < mixloop_sincos::kLimit, 1)) return;
+#pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      double s, c;
-      mixloop_sincos::sincos(x[i][lane], &s, &c);
-      sine[i][lane] = s;
-      cosine[i][lane] = c;
-    }
+    const Real angle = x[i];  // only these copies' addresses are taken
+    Real s, c;
+    one_by_one<kLanes>(&angle, &s, &c);
+    sine[i] = s, cosine[i] = c;
   }
 }
 

@@ -128,11 +128,12 @@ class Writer {
     for (int lanes : {4, 8}) export_lanes(lanes);
   }
 
-  // Through copies in registers: the caller's memory is aligned for doubles only.
+  // The caller's memory is aligned for doubles only: whole vectors are loaded and stored loosely.
   void export_lanes(int lanes) {
     line(
         "extern \"C\" void {0}_{1}(const double* psi, const double* psid, const double* input, "
-        "const double* t, const double* k, double* out) {{\n  using Real = mixloop_lanes::Lanes{1};",
+        "const double* t, const double* k, double* out) {{\n  using Real = mixloop_lanes::Lanes{1};\n"
+        "  using Loose = mixloop_lanes::Vectors<{1}>::Loose;",
         style_.prefix, lanes);
     std::string arguments;
     for (Block block : {Block::psi, Block::psid, Block::input, Block::time}) {
@@ -142,12 +143,15 @@ class Writer {
       for (const ExpressionNode& n : program_.nodes)
         if (n.op == Op::input && static_cast<Block>(n.a) == block)
           used = std::max<std::size_t>(used, n.b + 1);
-      line("  Real {0}_in[{1}] = {{}};\n  if ({2}) memcpy({0}_in, {0}, sizeof {0}_in);\n  (void){0};", name,
-           std::max<std::size_t>(used, 1), used > 0 ? "true" : "false");
+      std::string loads;
+      for (std::size_t i = 0; i < used; ++i) loads += fmt::format("((const Loose*){})[{}], ", name, i);
+      line("  const Real {0}_in[] = {{{1}}};\n  (void){0};", name, used > 0 ? loads : "Real()");
       arguments += fmt::format("{}_in{}, ", name, block == Block::time ? "[0]" : "");
     }
-    line("  Real results[{1}];\n  {0}_run<Real>({2}k, results);\n  memcpy(out, results, sizeof results);\n}}",
-         style_.prefix, program_.outputs.size(), arguments);
+    line("  Real results[{}];\n  {}_run<Real>({}k, results);", program_.outputs.size(), style_.prefix,
+         arguments);
+    for (std::size_t i = 0; i < program_.outputs.size(); ++i) line("  ((Loose*)out)[{0}] = results[{0}];", i);
+    line("}}");
   }
 
   void name_leaves(Stage stage) {
