@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "dynamics/symbolic/derivative.hpp"
 
@@ -142,13 +143,28 @@ Polynomial without_constant(Polynomial polynomial, Expression& constant) {
 }  // namespace
 
 // By each evaluation angle and each displacement that the function has.
+namespace {
+
+// Whether each variable is a node of its own, listed in `nodes`: only then may a function of them be
+// differentiated backwards through the graph. Of -sin x, which sin(-x) is recorded as, the sign may have gone
+// into a coefficient, and the node of -sin x is not on the way.
+bool are_leaves(const std::vector<Expression>& variables, std::vector<NodeId>& nodes) {
+  for (const Expression& variable : variables) {
+    const Op op = variable.is_number() ? Op::constant : recording_graph()[variable.node()].op;
+    if (op != Op::sin && op != Op::cos && op != Op::input) return false;
+    nodes.push_back(variable.node());
+  }
+  return std::set<NodeId>(nodes.begin(), nodes.end()).size() == nodes.size();
+}
+
+}  // namespace
+
 std::vector<HarmonicSlope> HarmonicFunctions::slopes(const Polynomial& polynomial,
                                                      const Expression& value) const {
   const std::size_t pairs = angles_.angles.size();
   std::vector<Expression> by_variable;
-  if (writing_.reverse_gradient && !value.is_number()) {
-    std::vector<NodeId> inputs;
-    for (const Expression& variable : variables_) inputs.push_back(variable.node());
+  std::vector<NodeId> inputs;
+  if (writing_.reverse_gradient && !value.is_number() && are_leaves(variables_, inputs)) {
     for (NodeId node : gradient(recording_graph(), value.node(), inputs))
       by_variable.push_back(Expression::of(node));
   } else {

@@ -121,7 +121,7 @@ TEST(Payload, OfNothingToATonneLosesNoMoreThanTheConditionNumberSays) {
 
 // The same numbers folded into the scene take other tracers' ways: whole ratios are harmonics.
 TEST(FoldedRatios, LoseNoMoreThanTheConditionNumberSays) {
-  const std::int64_t scenes = length(1, 10), states = length(10, 200);
+  const std::int64_t scenes = length(8, 20), states = length(4, 100);
   Figure figure("folded_ratios", "eps x scale x condition", kMostUnits, scenes * states * 3);
   for (std::int64_t seed = 1; seed <= scenes; ++seed) {
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
