@@ -6,8 +6,7 @@
 namespace mixloop {
 
 /// Dormand and Prince's pair 5(4): order 5, six evaluations a step (the seventh is the next one's first), the
-/// estimate of order 4. Stable for h lambda in [-3.3066, 0]; on the imaginary axis to 1.0 only at the price of growth
-/// below 1e-3. Hairer, Norsett & Wanner, Solving ODEs I, II.5, table 5.2; the dense output is Shampine's, II.6.
+/// estimate of order 4. Stable for h lambda in [-3.3066, 0] and i [-0.9972, 0.9972]. Hairer, Norsett & Wanner, Solving ODEs I, II.5, table 5.2; the dense output is Shampine's, II.6.
 struct DormandPrinceTable {
   static constexpr int kStages = 6, kOrder = 5;
   static constexpr const char* kC[kStages] = {"0", "1/5", "3/10", "4/5", "8/9", "1"};

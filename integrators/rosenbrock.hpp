@@ -23,9 +23,10 @@ struct AccelerationJacobian {
 /// With f = (v, a) the first row gives u_q = h gamma (r_q + u_v), so that a step factors one n x n matrix,
 ///   (I / (h gamma) - J_v - h gamma J_q) u_v = r_v + h gamma J_q r_q
 /// A fixed cost a step: one Jacobian, one factorisation, kStages solutions. What follows (q, v) in x stays as it is.
-template <class Table, class T>
+template <class CoefficientTable, class T>
 class Rosenbrock {
  public:
+  using Table = CoefficientTable;
   static constexpr std::size_t kStages = Table::kStages;
   static constexpr int kOrder = Table::kOrder;
 
@@ -122,7 +123,7 @@ struct Rodas4Table {
   static constexpr int kStages = 6, kOrder = 4;
   static constexpr const char* kGamma = "1/4";
   static constexpr const char* kAlpha[] = {"0", "0.386", "0.21", "0.63", "1", "1"};
-  static constexpr const char* kGammaI[] = {"1/4", "-0.1043", "0.1035", "0.3620000000000023e-1", "0", "0"};
+  static constexpr const char* kGammaI[] = {"1/4", "-0.1043", "0.1035", "-0.3620000000000023e-1", "0", "0"};
   static constexpr const char* kA[][5] = {
       {},
       {"1.544"},

@@ -112,11 +112,15 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
 
 Plan make_plan(const Experiment& experiment) {
   const auto model = make_model<double>(experiment.scene, std::span<const double>(experiment.parameters));
-  return Plan(model, experiment.path,
-              {.rate_hz = experiment.rate_hz,
-               .stages_per_tick = experiment.plant.continuous ? 2 * experiment.plant.substeps : 1,
-               .limits = experiment.limits,
-               .start_psi = experiment.plant.initial_psi});
+  Plan::Settings settings{.rate_hz = experiment.rate_hz,
+                          .limits = experiment.limits,
+                          .start_psi = experiment.plant.initial_psi};
+  if (experiment.plant.continuous) {
+    const StageRows rows = stage_rows(experiment.plant.integrator);
+    settings.stages_per_tick = experiment.plant.substeps * (rows.uniform ? rows.rows : 1);
+    if (!rows.uniform) settings.within = rows.at;
+  }
+  return Plan(model, experiment.path, settings);
 }
 
 Controller make_controller(const Experiment& experiment) {
@@ -125,10 +129,28 @@ Controller make_controller(const Experiment& experiment) {
                     experiment.controller);
 }
 
+Experiment with_integrator_settled(Experiment experiment, const Plan& plan) {
+  if (!experiment.plant.automatic || experiment.integrator_choice) return experiment;
+  const IntegratorChoice choice =
+      choose_integrator(experiment.scene, experiment.plant_parameters, plan, experiment.rate_hz,
+                        experiment.plant.local_error);
+  experiment.plant.integrator = choice.method;
+  experiment.plant.substeps = choice.substeps;
+  experiment.plant.local_error = 0;  // the steps are settled
+  experiment.integrator_choice = choice;
+  return experiment;
+}
+
 Plant make_plant(const Experiment& experiment, const Plan& plan) {
+  if (experiment.plant.automatic && !experiment.integrator_choice)
+    return make_plant(with_integrator_settled(experiment, plan), plan);
   const Vector start = plan.at(0).psi;
-  return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
-                        {Purpose::forward_dynamics}),
+  const auto dynamics = [&](std::initializer_list<Purpose> purposes) {
+    return Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, purposes);
+  };
+  return Plant(facts(experiment.plant.integrator).jacobian
+                   ? dynamics({Purpose::forward_dynamics, Purpose::linearisation})
+                   : dynamics({Purpose::forward_dynamics}),
                experiment.plant, experiment.rate_hz, span_of(start));
 }
 

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "controller/control_law.hpp"
 #include "loop/expectation.hpp"
+#include "loop/integrator_choice.hpp"
 #include "planner/plan.hpp"
 #include "plant/plant.hpp"
 
@@ -36,6 +38,7 @@ struct Experiment {
   std::vector<double> plant_parameters;
   std::vector<double> controller_parameters;
   double position_error_limit = 0.1;  ///< m: past it the run has diverged
+  std::optional<IntegratorChoice> integrator_choice;  ///< of `integrator: auto`, once settled
   PlanLimits limits;
   Expectation expect;
   Evaluation evaluation = Evaluation::machine_code;  ///< of the equations of motion, everywhere
@@ -54,6 +57,9 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
 Plan make_plan(const Experiment& experiment);
 Controller make_controller(const Experiment& experiment);
 Plant make_plant(const Experiment& experiment, const Plan& plan);
+
+/// The experiment with `integrator: auto` settled; as it is where one is named.
+Experiment with_integrator_settled(Experiment experiment, const Plan& plan);
 
 /// What plant, controller and planner must have in common, a text each to hash: rate, mechanism, path and
 /// shared parameters.

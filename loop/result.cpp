@@ -17,6 +17,15 @@ std::string processor() {
   return "unknown";
 }
 
+nlohmann::json integrator_json(const Experiment& experiment) {
+  const PlantSettings& plant = experiment.plant;
+  nlohmann::json json = {{"name", facts(plant.integrator).name}, {"substeps", plant.substeps}};
+  if (plant.local_error > 0) json = {{"name", facts(plant.integrator).name}, {"local_error", plant.local_error}};
+  if (const auto& choice = experiment.integrator_choice)
+    json["chosen"] = {{"local_error", choice->asked}, {"estimate", choice->estimate}, {"why", choice->why}};
+  return json;
+}
+
 }  // namespace
 
 Verdict judge(const Experiment& experiment, const Measures& measures) {
@@ -57,6 +66,7 @@ nlohmann::json result_json(const Experiment& experiment, const Measures& measure
       {"parameters", nlohmann::json::object()},
       {"versions", {{"mixloop", MIXLOOP_VERSION}, {"compiler", __VERSION__}, {"processor", processor()}}},
   };
+  json["integrator"] = integrator_json(experiment);
   for (std::size_t i = 0; i < experiment.scene->parameters.size(); ++i)
     json["parameters"][experiment.scene->parameters[i].name] = experiment.plant_parameters[i];
   if (measures.diverged_at) json["diverged_at"] = *measures.diverged_at;
@@ -86,6 +96,8 @@ std::string summary(const Experiment& experiment, const nlohmann::json& result) 
       fmt::format("  {} ticks at {:g} Hz by {} in {:.3f} s ({})\n", result.at("ticks").get<std::int64_t>(),
                   experiment.rate_hz, result.at("route").get<std::string>(),
                   result.at("wall_time").get<double>(), result.at("evaluation").get<std::string>());
+  if (const auto& integrator = result.at("integrator"); integrator.contains("chosen"))
+    text += "  integrator       " + integrator.at("chosen").at("why").get<std::string>() + "\n";
   text += "  trajectory       " + result.at("trajectory_sha256").get<std::string>() + "\n";
   for (const auto& line : result.at("missed")) text += "  missed: " + line.get<std::string>() + "\n";
   return text;

@@ -8,17 +8,17 @@
 namespace mixloop {
 
 Plan::Plan(const Model<double>& model, const Path& path, const Settings& settings)
-    : n_(model.n()), stages_(settings.stages_per_tick) {
+    : n_(model.n()), stages_(settings.stages_per_tick * static_cast<int>(settings.within.size())) {
   PlanMaker(model, path, settings).make(*this);
 }
 
-std::span<const double> Plan::row_of(std::int64_t step) const {
-  const std::int64_t start = start_tick_ * stages_, end = ticks_ * stages_, rows = start + lap_steps_;
-  std::int64_t row = std::max<std::int64_t>(step, 0);
+std::span<const double> Plan::row_of(std::int64_t index) const {
+  const std::int64_t start = start_tick_ * stages_, end = ticks_ * stages_, rows = start + lap_rows_;
+  std::int64_t row = std::max<std::int64_t>(index, 0);
   if (row >= end)
     row = row > end ? rows + 1 : rows;
   else if (row >= rows)
-    row = start + (row - start) % lap_steps_;
+    row = start + (row - start) % lap_rows_;
   const std::size_t size = reference_size(n_);
   return {table_.data() + static_cast<std::size_t>(row) * size, size};
 }

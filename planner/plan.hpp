@@ -18,7 +18,8 @@ class Plan {
  public:
   struct Settings {
     double rate_hz = 1000;
-    int stages_per_tick = 1;  ///< 2 * substeps for control evaluated at every RK4 stage, else 1
+    int stages_per_tick = 1;           ///< equal steps of the table a tick
+    std::vector<double> within = {0};  ///< rows a step, as shares of it, ascending from 0: an integrator's stages
     PlanLimits limits = {};
     std::vector<double> start_psi = {};  ///< where the motors stand; empty: at the path's start
   };
@@ -39,17 +40,18 @@ class Plan {
   /// At tick k: time k / rate. Before 0 as at 0; past N the last position with rates of zero.
   /// Valid while the plan lives.
   Reference at(std::int64_t k) const { return at_stage(k, 0); }
-  /// At stage j of tick k, 0 <= j < stages_per_tick: time (k + j / stages_per_tick) / rate.
+  /// At row j of tick k, 0 <= j < stages_per_tick * within.size(), those of a step next to each other: time
+  /// (k + (step + within[row]) / stages_per_tick) / rate.
   Reference at_stage(std::int64_t k, int j) const;
 
  private:
   friend class PlanMaker;
-  std::span<const double> row_of(std::int64_t step) const;
+  std::span<const double> row_of(std::int64_t index) const;
 
   int n_ = 0;
-  int stages_ = 1;
+  int stages_ = 1;  ///< rows a tick
   std::int64_t ticks_ = 0, start_tick_ = 0;
-  std::int64_t lap_steps_ = 0;  ///< of the path's rows in the table: a path that repeats has one lap there
+  std::int64_t lap_rows_ = 0;   ///< of the path's rows in the table: a path that repeats has one lap there
   std::vector<double> table_;   ///< rows of the move to the start, of a lap, of the end, and of rest past it
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/scene/time_dependence.hpp"
 #include "planner/move_to_start.hpp"
 
 namespace mixloop {
@@ -13,27 +14,14 @@ namespace {
 
 constexpr double kMostNumbers = 0x1p27;  // of a table: 1 GB
 
-bool timed(const Formula& formula) {
-  return depends_on(formula, [](int symbol) { return symbol == Symbols::kTime; });
-}
-
-bool constraints_depend_on_time(const Scene& scene) {
-  return std::any_of(scene.coordinates.begin(), scene.coordinates.end(),
-                     [](const auto& coordinate) { return timed(coordinate.constraint); });
-}
-
-bool loads_depend_on_time(const Scene& scene) {
-  return std::any_of(scene.loads.begin(), scene.loads.end(), [](const auto& load) {
-    return std::any_of(load.force.begin(), load.force.end(), timed) ||
-           std::any_of(load.moment.begin(), load.moment.end(), timed);
-  });
-}
-
 const Plan::Settings& checked(const Plan::Settings& settings, const Model<double>& model) {
   if (!(settings.rate_hz > 0) || !std::isfinite(settings.rate_hz))
     throw InputError("out_of_range", {},
                      fmt::format("a rate of {} Hz; expected more than 0", settings.rate_hz));
   if (settings.stages_per_tick < 1) throw InputError("out_of_range", {}, "fewer than one stage a tick");
+  if (settings.within.empty() || settings.within.front() != 0 || settings.within.back() >= 1 ||
+      !std::is_sorted(settings.within.begin(), settings.within.end()))
+    throw InputError("out_of_range", {}, "a step's rows are to ascend from 0 and to stay below 1");
   if (!settings.start_psi.empty() && settings.start_psi.size() != static_cast<std::size_t>(model.n()))
     throw InputError("wrong_size", {},
                      fmt::format("the start has {} values; expected one for each of the {} motors",
@@ -47,6 +35,7 @@ PlanMaker::PlanMaker(const Model<double>& model, const Path& path, const Plan::S
     : model_(model),
       path_(path),
       settings_(checked(settings, model)),
+      width_(static_cast<std::int64_t>(settings.within.size())),
       itinerary_(path, settings.rate_hz, settings.stages_per_tick),
       ik_(model),
       measures_(model, ik_.motor_scale()),
@@ -56,9 +45,10 @@ PlanMaker::PlanMaker(const Model<double>& model, const Path& path, const Plan::S
 
 void PlanMaker::make(Plan& plan) {
   const LimitCheck limits_are_sound(model_, settings_.limits);
-  plan.lap_steps_ = timed_ ? itinerary_.steps() : itinerary_.lap_steps();
+  lap_steps_ = timed_ ? itinerary_.steps() : itinerary_.lap_steps();
+  plan.lap_rows_ = lap_steps_ * width_;
   plan.ticks_ = itinerary_.steps() / settings_.stages_per_tick;
-  require_room(static_cast<double>(plan.lap_steps_));
+  require_room(static_cast<double>(lap_steps_));
   follow(plan, 0);
   if (!settings_.start_psi.empty()) {
     const Vector from = Eigen::Map<const Vector>(settings_.start_psi.data(), plan.n_);
@@ -72,7 +62,7 @@ void PlanMaker::make(Plan& plan) {
 }
 
 void PlanMaker::require_room(double steps) const {
-  if (!(steps * static_cast<double>(reference_size(model_.n())) <= kMostNumbers))
+  if (!(steps * static_cast<double>(width_) * static_cast<double>(reference_size(model_.n())) <= kMostNumbers))
     throw InputError("too_large", path_.place,
                      fmt::format("{} steps; their table would take more than 1 GB", steps));
 }
@@ -101,10 +91,10 @@ void PlanMaker::write(const Follower::Motion& motion, double t, std::span<double
   out << psi, psid, psidd, E.position, E.velocity, E.acceleration;
 }
 
-// The path's rows, one for each step of a lap and one for its end, checked.
+// The path's rows, of each step of a lap and one for its end, checked.
 void PlanMaker::follow(Plan& plan, std::int64_t delay) {
-  const std::int64_t steps = plan.lap_steps_;
-  plan.table_.resize(static_cast<std::size_t>(steps + 1) * reference_size(plan.n_));
+  const std::int64_t steps = lap_steps_;
+  plan.table_.resize(static_cast<std::size_t>(steps * width_ + 1) * reference_size(plan.n_));
   samples_.resize(static_cast<std::size_t>(steps + 1) * measures_.count());
   Follower follower(ik_, itinerary_, delay);
   const double t_start = follower.time(0);
@@ -117,19 +107,30 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
     if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::kSolved)
       refusal_.no_way(outcome, follower, at);
     const double t = follower.time(at);
-    write(follower.now(), t, row(plan, step));
+    write(follower.now(), t, row(plan, step * width_));
     measures_.evaluate(follower.now().motors.psi, t,
                        samples_.data() + static_cast<std::size_t>(step) * measures_.count());
+    if (step < steps) follow_within(plan, step, follower);
   }
   check_singularities(plan, delay);
   check_limits(plan, delay);
+}
+
+// The other rows of a step.
+void PlanMaker::follow_within(Plan& plan, std::int64_t step, Follower& follower) {
+  for (std::int64_t j = 1; j < width_; ++j) {
+    const double at = static_cast<double>(step) + settings_.within[static_cast<std::size_t>(j)];
+    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::kSolved)
+      refusal_.no_way(outcome, follower, at);
+    write(follower.now(), follower.time(at), row(plan, step * width_ + j));
+  }
 }
 
 void PlanMaker::check_singularities(Plan& plan, std::int64_t delay) {
   Follower follower(ik_, itinerary_, delay);
   const auto measures_at = [&](double step, double* values) {
     const std::int64_t before = std::llround(std::floor(step));
-    const Reference known = reference_in(row(plan, before), plan.n_);
+    const Reference known = reference_in(row(plan, before * width_), plan.n_);
     follower.resume({static_cast<double>(before), {}, {known.psi, known.psid, known.psidd}});
     if (follower.advance(step) == IkOutcome::kSolved)
       return measures_.evaluate(follower.now().motors.psi, follower.time(step), values);
@@ -142,12 +143,12 @@ void PlanMaker::check_singularities(Plan& plan, std::int64_t delay) {
 void PlanMaker::check_limits(Plan& plan, std::int64_t delay) {
   LimitCheck check(model_, settings_.limits);
   // Loads that depend on time make every lap's torques different.
-  const std::int64_t laps = timed_loads_ ? itinerary_.steps() / plan.lap_steps_ : 1;
+  const std::int64_t laps = timed_loads_ ? itinerary_.steps() / lap_steps_ : 1;
   const Follower clock(ik_, itinerary_, delay);
   for (std::int64_t lap = 0; lap < laps; ++lap)
-    for (std::int64_t i = 0; i <= plan.lap_steps_; ++i) {
-      const std::int64_t step = lap * plan.lap_steps_ + i;
-      check.look(step, reference_in(row(plan, i), plan.n_), clock.time(static_cast<double>(step)));
+    for (std::int64_t i = 0; i <= lap_steps_; ++i) {
+      const std::int64_t step = lap * lap_steps_ + i;
+      check.look(step, reference_in(row(plan, i * width_), plan.n_), clock.time(static_cast<double>(step)));
     }
   if (check.worst()) refusal_.excess(*check.worst());
 }
@@ -167,8 +168,8 @@ std::int64_t PlanMaker::approach_ticks(Plan& plan, const Vector& move) {
 // Of each motor, what any motor of its kind reaches.
 Vector PlanMaker::fastest_on_path(Plan& plan) const {
   Vector each = Vector::Zero(plan.n_), fastest = each;
-  for (std::int64_t step = 0; step < plan.lap_steps_; ++step)
-    each = each.cwiseMax(reference_in(row(plan, step), plan.n_).psid.cwiseAbs());
+  for (std::int64_t step = 0; step < lap_steps_; ++step)
+    each = each.cwiseMax(reference_in(row(plan, step * width_), plan.n_).psid.cwiseAbs());
   const auto linear = [&](int i) { return model_.scene->motors[static_cast<std::size_t>(i)].linear; };
   for (int i = 0; i < plan.n_; ++i)
     for (int j = 0; j < plan.n_; ++j)
@@ -180,26 +181,32 @@ Vector PlanMaker::fastest_on_path(Plan& plan) const {
 // scene names may not.
 void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   const std::int64_t steps = ticks * settings_.stages_per_tick;
-  require_room(static_cast<double>(plan.lap_steps_ + steps));
+  require_room(static_cast<double>(lap_steps_ + steps));
   const double rate = itinerary_.step_rate();
   const Reference start = reference_in(row(plan, 0), plan.n_);
   const MoveToStart move(from, {start.psi, start.psid, start.psidd}, static_cast<double>(steps) / rate);
   const auto at = [&](double step) { return move.at(step / static_cast<double>(steps)); };
-  plan.table_.insert(plan.table_.begin(), static_cast<std::size_t>(steps) * reference_size(plan.n_), 0.0);
+  plan.table_.insert(plan.table_.begin(), static_cast<std::size_t>(steps * width_) * reference_size(plan.n_), 0.0);
   plan.start_tick_ = ticks;
   plan.ticks_ += ticks;
 
   const std::size_t named = measures_.count() - 1;
   std::vector<double> values(measures_.count()), samples;
   LimitCheck check(model_, settings_.limits);
-  for (std::int64_t step = 0; step < steps; ++step) {
-    const double t = static_cast<double>(step) / rate;
-    Follower::Motion motion{0, {}, at(static_cast<double>(step))};
+  const auto fill = [&](double step, std::int64_t index) {
+    const double t = step / rate;
+    Follower::Motion motion{0, {}, at(step)};
     const auto& E = ik_.forward(motion.motors.psi, motion.motors.psid, motion.motors.psidd, t);
     motion.desired = {E.position, E.velocity, E.acceleration};
-    write(motion, t, row(plan, step));
-    check.look(step, reference_in(row(plan, step), plan.n_), t);
-    measures_.evaluate(motion.motors.psi, t, values.data());
+    write(motion, t, row(plan, index));
+  };
+  for (std::int64_t step = 0; step < steps; ++step) {
+    for (std::int64_t j = 0; j < width_; ++j)
+      fill(static_cast<double>(step) + settings_.within[static_cast<std::size_t>(j)], step * width_ + j);
+    const Reference now = reference_in(row(plan, step * width_), plan.n_);
+    const double t = static_cast<double>(step) / rate;
+    check.look(step, now, t);
+    measures_.evaluate(now.psi, t, values.data());
     samples.insert(samples.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(named));
   }
   const auto measures_at = [&](double step, double* out) {

@@ -19,6 +19,7 @@ class PlanMaker {
   std::span<double> row(Plan& plan, std::int64_t index) const;
   void write(const Follower::Motion& motion, double t, std::span<double> row);
   void follow(Plan& plan, std::int64_t delay);
+  void follow_within(Plan& plan, std::int64_t step, Follower& follower);
   void check_singularities(Plan& plan, std::int64_t delay);
   void check_limits(Plan& plan, std::int64_t delay);
   std::int64_t approach_ticks(Plan& plan, const Vector& move);
@@ -29,12 +30,14 @@ class PlanMaker {
   const Model<double>& model_;
   const Path& path_;
   const Plan::Settings& settings_;
+  std::int64_t width_;  ///< rows a step
   Itinerary itinerary_;
   InverseKinematics ik_;
   SingularityMeasures measures_;
   Refusal refusal_;
   bool timed_;                   ///< the constraints depend on time: no lap is like the other
   bool timed_loads_;             ///< there are torque limits, and loads that depend on time
+  std::int64_t lap_steps_ = 0;
   std::vector<double> samples_;  ///< measures at each step of the path
 };
 

@@ -46,8 +46,9 @@ class PlantProcess {
  public:
   explicit PlantProcess(const Options& options)
       : options_(options),
-        experiment_(options.load()),
-        plan_(make_plan(experiment_)),
+        loaded_(options.load()),
+        plan_(make_plan(loaded_)),
+        experiment_(with_integrator_settled(loaded_, plan_)),
         plant_(make_plant(experiment_, plan_)),
         recorder_(experiment_, plan_),
         truth_(experiment_, recorder_),
@@ -145,8 +146,9 @@ class PlantProcess {
   }
 
   Options options_;
-  Experiment experiment_;
+  Experiment loaded_;
   Plan plan_;
+  Experiment experiment_;
   Plant plant_;
   Recorder recorder_;
   TruthReader truth_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/scene/time_dependence.hpp"
+
 namespace mixloop {
 
 Plant::Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::span<const double> psi0)
@@ -13,7 +15,12 @@ Plant::Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::spa
       n_(psi0.size()),
       x_(Vector::Zero(static_cast<Eigen::Index>(2 * n_ + 1))),
       applied_(Vector::Zero(static_cast<Eigen::Index>(n_))),
-      rk4_(x_.size()) {
+      before_(applied_),
+      scratch_(applied_),
+      integrator_({settings_.integrator, settings_.substeps, settings_.local_error}, applied_.size(), x_.size()),
+      rows_(stage_rows(settings_.integrator)),
+      linearisation_(Vector::Zero(3 * applied_.size() * applied_.size())),
+      timed_(constraints_depend_on_time(dynamics_.scene()) || loads_depend_on_time(dynamics_.scene())) {
   std::copy(psi0.begin(), psi0.end(), x_.data());
   // A delay within a billionth of whole ticks is whole.
   const double ticks = settings_.command_delay * rate_hz_;
@@ -54,10 +61,15 @@ void Plant::saturate(std::span<const double> tau) {
 }
 
 void Plant::integrate_held(double t, double length) {
-  const double h = length / settings_.substeps;
-  for (int step = 0; step < settings_.substeps; ++step)
-    rk4_step(
-        x_, h, [&](int, double c, const Vector& x, Vector& dx) { rate_of(t + (step + c) * h, x, dx); }, rk4_);
+  const auto rate = [&](int, int, double after, const Vector& x, Vector& dx) { rate_of(t + after, x, dx); };
+  const auto linear = [&](double after, const Vector& x, auto& jacobian) { linearise(t + after, x, jacobian); };
+  if (!facts(settings_.integrator).jacobian) return integrator_.advance(x_, length, rate, linear);
+  // Such a method leaves the work alone; of a held torque it is tau . (psi+ - psi).
+  const auto n = static_cast<Eigen::Index>(n_);
+  before_ = x_.head(n);
+  integrator_.advance(x_, length, rate, linear);
+  before_ = x_.head(n) - before_;
+  x_[2 * n] += applied_.dot(before_);
 }
 
 /// psi' = psi', psi'' by forward dynamics, work' = tau . psi'.
@@ -67,6 +79,23 @@ void Plant::rate_of(double t, const Vector& x, Vector& dx) {
   dynamics_.forward_dynamics(psi, psid, applied(), t, {dx.data() + n_, n_});
   const auto n = static_cast<Eigen::Index>(n_);
   dx[2 * n] = applied_.dot(x.segment(n, n));
+}
+
+void Plant::linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian) {
+  const auto n = static_cast<Eigen::Index>(n_);
+  dynamics_.linearisation({x.data(), n_}, {x.data() + n_, n_}, applied(), t, span_of(linearisation_));
+  jacobian.by_q = Eigen::Map<const Matrix>(linearisation_.data(), n, n);
+  jacobian.by_v = Eigen::Map<const Matrix>(linearisation_.data() + n * n, n, n);
+  if (timed_) time_derivative(t, x, jacobian.by_t);
+}
+
+/// By a central difference over a cube root of round-off: to 1e-10 of the acceleration.
+void Plant::time_derivative(double t, const Vector& x, Vector& by_t) {
+  const double d = 6e-6 * std::max(1.0, std::abs(t));
+  const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
+  dynamics_.forward_dynamics(psi, psid, applied(), t + d, span_of(by_t));
+  dynamics_.forward_dynamics(psi, psid, applied(), t - d, span_of(scratch_));
+  by_t = (by_t - scratch_) / (2 * d);
 }
 
 }  // namespace mixloop

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dynamics/evaluator.hpp"
+#include "integrators/integrator.hpp"
 #include "plant/plant_settings.hpp"
-#include "plant/rk4.hpp"
 
 namespace mixloop {
 
@@ -32,8 +32,8 @@ class Plant {
   /// Goes on to the next tick, the commands held.
   void advance();
 
-  /// Goes on to the next tick, `control(stage, t, psi, psid, tau)` evaluated at every stage; stages count
-  /// half steps from 0 to 2 substeps.
+  /// Goes on to the next tick, `control(row, t, psi, psid, tau)` evaluated at every stage of the method; rows are those
+  /// of stage_rows, one substep's after the other's. Of a method with a Jacobian: undefined.
   template <class Control>
   void advance_continuously(const Control& control);
 
@@ -44,6 +44,8 @@ class Plant {
   void saturate(std::span<const double> tau);
   void integrate_held(double t, double h);
   void rate_of(double t, const Vector& x, Vector& dx);
+  void linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian);
+  void time_derivative(double t, const Vector& x, Vector& by_t);
 
   Dynamics dynamics_;
   PlantSettings settings_;
@@ -53,26 +55,23 @@ class Plant {
   std::size_t delay_ticks_ = 0;  ///< whole ticks of the command delay
   double delay_rest_ = 0;        ///< and the rest, s
   Vector x_;                     ///< psi, psid, work
-  Vector applied_;
+  Vector applied_, before_, scratch_;
   std::vector<Vector> commands_;  ///< a ring by tick, as long as the delay needs
-  Rk4Workspace rk4_;
+  Integrator integrator_;
+  StageRows rows_;
+  Vector linearisation_;  ///< 3 n^2, of methods with a Jacobian
+  bool timed_;            ///< the forward dynamics depend on time
 };
 
 template <class Control>
 void Plant::advance_continuously(const Control& control) {
-  const double h = 1.0 / rate_hz_ / settings_.substeps;
-  for (int step = 0; step < settings_.substeps; ++step) {
-    const double t = time() + step * h;
-    rk4_step(
-        x_, h,
-        [&](int stage, double c, const Vector& x, Vector& dx) {
-          const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
-          control(2 * step + (stage + 1) / 2, t + c * h, psi, psid, span_of(applied_));
-          saturate(span_of(std::as_const(applied_)));
-          rate_of(t + c * h, x, dx);
-        },
-        rk4_);
-  }
+  const auto rate = [&](int step, int stage, double t, const Vector& x, Vector& dx) {
+    const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
+    control(rows_.rows * step + rows_.row[static_cast<std::size_t>(stage)], time() + t, psi, psid, span_of(applied_));
+    saturate(span_of(std::as_const(applied_)));
+    rate_of(time() + t, x, dx);
+  };
+  integrator_.advance(x_, 1.0 / rate_hz_, rate, [](double, const Vector&, auto&) {});
   ++tick_;
 }
 

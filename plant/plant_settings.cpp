@@ -2,6 +2,9 @@
 #include "plant/plant_settings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "notation/value.hpp"
 
@@ -20,16 +23,69 @@ std::vector<double> read_motor_values(const NodePtr& node, const Scene& scene, c
   return values;
 }
 
+namespace {
+
+constexpr double kLocalError = 1e-9;  // what `auto` keeps unless told
+
+void read_integrator(const Mapping& entry, PlantSettings& settings) {
+  const NodePtr integrator = entry.find("integrator"), substeps = entry.find("substeps"),
+                local_error = entry.find("local_error");
+  if (integrator) {
+    auto words = method_names();
+    words.emplace_back("auto");
+    const auto word = std::find(words.begin(), words.end(), text_of(*integrator, "the integrator"));
+    if (word == words.end())
+      throw InputError("unknown_value", integrator->place,
+                       fmt::format("the integrator is {}; expected one of {}", describe(*integrator),
+                                   fmt::join(words, ", ")));
+    settings.automatic = *word == "auto";
+    if (!settings.automatic) settings.integrator = static_cast<Method>(word - words.begin());
+  }
+  if (substeps) settings.substeps = static_cast<int>(whole_number_of(*substeps, 1, 1000, "substeps"));
+  if (settings.automatic) settings.local_error = kLocalError;
+  if (settings.substeps > 1 && (local_error || settings.automatic))
+    throw InputError("doubly_defined", substeps->place,
+                     local_error ? "substeps and local_error both say how long steps are; expected one of them"
+                                 : "integrator: auto finds the substeps itself; expected a local_error or nothing");
+  if (!local_error) return;
+  settings.local_error = number_of(*local_error, kPure, "the local error");
+  if (!(settings.local_error >= 1e-14 && settings.local_error <= 0.1))
+    throw InputError("out_of_range", local_error->place,
+                     fmt::format("a local error of {}; expected 1e-14 to 0.1", settings.local_error));
+  if (!settings.automatic && !facts(settings.integrator).error_control)
+    throw InputError("out_of_range", local_error->place,
+                     fmt::format("{} has no estimate of its error; expected substeps, or dormand_prince, dop853 or auto "
+                                 "as the integrator",
+                                 facts(settings.integrator).name));
+}
+
+/// What can't evaluate the control at its stages.
+void require_stages_in_time(const PlantSettings& settings, const Place& place) {
+  if (settings.automatic)
+    throw InputError("out_of_range", place,
+                     "integrator: auto looks at ticks with the torque held; with control: continuous name one");
+  if (facts(settings.integrator).jacobian)
+    throw InputError("out_of_range", place,
+                     fmt::format("{} takes the Jacobian of the plant, which has not the controller's share of control: "
+                                 "continuous; expected another integrator or control: held",
+                                 facts(settings.integrator).name));
+  if (settings.local_error > 0)
+    throw InputError("out_of_range", place,
+                     "a local_error chooses steps as it goes, and with control: continuous the references stand at "
+                     "fixed stages; expected substeps");
+}
+
+}  // namespace
+
 PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene) {
   const Mapping entry(
       node, "the plant",
-      {"integrator", "control", "substeps", "command_delay", "torque_limit", "initial", "parameters"});
+      {"integrator", "local_error", "control", "substeps", "command_delay", "torque_limit", "initial", "parameters"});
   PlantSettings settings;
-  if (const NodePtr integrator = entry.find("integrator")) word_of(*integrator, {"rk4"}, "the integrator");
+  read_integrator(entry, settings);
   if (const NodePtr control = entry.find("control"))
     settings.continuous = word_of(*control, {"held", "continuous"}, "control") == 1;
-  if (const NodePtr substeps = entry.find("substeps"))
-    settings.substeps = static_cast<int>(whole_number_of(*substeps, 1, 1000, "substeps"));
+  if (settings.continuous) require_stages_in_time(settings, entry.at("control")->place);
   if (const NodePtr delay = entry.find("command_delay")) {
     settings.command_delay = number_of(*delay, kTime, "the command delay");
     if (settings.command_delay < 0 || settings.command_delay > 1)

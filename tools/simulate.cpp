@@ -15,9 +15,9 @@
 
 namespace mixloop {
 
-nlohmann::json simulated(const Experiment& experiment, const std::string& out, const StopSwitch& stop,
-                         bool quiet) {
-  const Plan plan = make_plan(experiment);
+nlohmann::json simulated(const Experiment& loaded, const std::string& out, const StopSwitch& stop, bool quiet) {
+  const Plan plan = make_plan(loaded);
+  const Experiment experiment = with_integrator_settled(loaded, plan);
   const nlohmann::json warnings = warnings_of(experiment, plan, quiet);
   if (!out.empty()) prepare_folder(out);
   Recorder recorder(experiment, plan);

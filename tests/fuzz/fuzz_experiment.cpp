@@ -11,7 +11,8 @@ using namespace mixloop;
 double ticks_of(const Experiment& experiment) {
   double seconds = experiment.path.approach.value_or(0.0);
   for (const auto& via : experiment.path.vias) seconds += (via.duration + via.dwell) * (1.0 + experiment.path.repeat);
-  return seconds * experiment.rate_hz * (experiment.plant.continuous ? 2 * experiment.plant.substeps : 1);
+  const int rows = stage_rows(experiment.plant.integrator).rows * experiment.plant.substeps;
+  return seconds * experiment.rate_hz * (experiment.plant.continuous ? rows : 1);
 }
 
 }  // namespace

@@ -96,6 +96,20 @@ TEST(Plan, GivesTheSameBytesAtATickForAnyNumberOfStages) {
   }
 }
 
+// Rows within a step, an integrator's stages, are the path at their times.
+TEST(Plan, HasRowsWithinAStep) {
+  const auto model = paper_robot();
+  const Plan ticks = plan_of(model, kPaperPath);
+  const Plan within = plan_of(model, kPaperPath, {.stages_per_tick = 2, .within = {0, 0.25, 0.75}});
+  const Plan fine = plan_of(model, kPaperPath, {.rate_hz = 8000});
+  for (int k = 0; k < 1000; ++k) {
+    EXPECT_TRUE(same_bytes(within.at_stage(k, 0), ticks.at(k))) << k;
+    for (const auto& [row, eighth] : {std::pair{1, 1}, {2, 3}, {3, 4}, {4, 5}, {5, 7}})
+      EXPECT_TRUE(same_bytes(within.at_stage(k, row), fine.at(8 * k + eighth))) << k << " row " << row;
+    EXPECT_TRUE(same_bytes(within.at_stage(k, 6), ticks.at(k + 1))) << k;
+  }
+}
+
 TEST(Plan, RepeatsALapWithTheSameBytes) {
   const auto model = paper_robot();
   const Plan plan =

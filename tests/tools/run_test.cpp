@@ -42,6 +42,19 @@ TEST(Run, GivesTheSimulatedBytesWhenIdle) {
   }
 }
 
+TEST(Run, GivesTheSimulatedBytesByOtherIntegratorsToo) {
+  for (const char* plant : {"plant.integrator=auto", "plant.integrator=rodas4",
+                            "plant={integrator: dop853, local_error: 1e-9, command_delay: 0.3 ms}"}) {
+    SCOPED_TRACE(plant);
+    Command alone({bin("mixloop"), "simulate", experiment("paper"), "--json", "--set", plant}),
+        bus({bin("mixloop"), "run", experiment("paper"), "--json", "--set", plant});
+    ASSERT_EQ(alone.wait(), 0) << alone.err();
+    ASSERT_EQ(bus.wait(), 0) << bus.err();
+    EXPECT_EQ(bus.json()["trajectory_sha256"], alone.json()["trajectory_sha256"]);
+    EXPECT_EQ(bus.json()["integrator"], alone.json()["integrator"]);
+  }
+}
+
 TEST(Run, GivesTheSimulatedBytesUnderLoad) {
   std::vector<std::unique_ptr<Command>> load;
   for (int i = 0; i < 4; ++i)
