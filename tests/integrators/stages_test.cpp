@@ -45,8 +45,14 @@ TEST_P(Stages, StandAtTheTimesOfTheirRows) {
 }
 
 TEST_P(Stages, AreAsManyAsTheFactsSay) {
-  if (GetParam().method == Method::gauss8) GTEST_SKIP() << "iterates";
   Vector x = KnownMotion<double>::at(0);
+  if (GetParam().method == Method::gauss8) {
+    // It iterates: whole sweeps of four, after one look where the piece starts.
+    const std::size_t calls = calls_of(x, 5, 1.0).size();
+    EXPECT_EQ(calls % 4, 1U);
+    EXPECT_GT(calls, 5 * 4 * 3U);
+    return;
+  }
   const int first = GetParam().method == Method::leapfrog ? 1 : 0;  // its piece's first step looks twice
   EXPECT_EQ(calls_of(x, 5, 1.0).size(), static_cast<std::size_t>(5 * GetParam().evaluations + first));
 }
