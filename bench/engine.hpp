@@ -29,6 +29,8 @@ struct Engine {
   std::function<void(const State&, Triple& force)> mass_times;  ///< M a, with a = state.tau
   std::function<void(const State&, Triple& psidd, Triple& force)> forward_and_mass_times;
   std::function<void(const std::vector<State>&, std::vector<Triple>& psidd)> forward_all;
+  /// The state after `length` under tau, by the engine's own integrator of order 4 in so many steps.
+  std::function<void(State&, double length, int steps)> own_tick;
 };
 
 using Engines = std::vector<Engine>;

@@ -124,6 +124,20 @@ class MujocoRobot {
     psidd = motor_acceleration(data_->qacc[0], data_->qacc[1], data_->qacc[3]);
   }
 
+  /// MuJoCo's own Runge-Kutta steps, the state carried in its six joints.
+  void own_steps(State& state, double length, int steps) {
+    place(state);
+    const auto torque = basis_torque(state.tau);
+    data_->qfrc_applied[0] = torque[0];
+    data_->qfrc_applied[1] = torque[1];
+    data_->qfrc_applied[3] = torque[2];
+    model_->opt.integrator = mjINT_RK4;
+    model_->opt.timestep = length / steps;
+    for (int step = 0; step < steps; ++step) mj_step(model_, data_);
+    state.psi = motor_acceleration(data_->qpos[0], data_->qpos[1], data_->qpos[3]);  // linear: serves positions too
+    state.psid = motor_acceleration(data_->qvel[0], data_->qvel[1], data_->qvel[3]);
+  }
+
   void projected(const State& state, Triple& psidd) {
     place(state);
     const Matrix3d M = mass();
@@ -175,6 +189,7 @@ void add_mujoco(Engines& engines) {
   own.name = version + ", couplings as its equality constraints";
   own.tolerance = 5e-2;  // its constraints are soft: what its stiffest settings leave (median 1e-3)
   own.forward = [coupled](const State& state, Triple& psidd) { coupled->constrained(state, psidd); };
+  own.own_tick = [coupled](State& state, double length, int steps) { coupled->own_steps(state, length, steps); };
   engines.push_back(std::move(own));
 }
 
