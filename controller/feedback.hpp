@@ -7,6 +7,11 @@
 
 namespace mixloop {
 
+/// Of psidd by psi, psid and tau, n x 3n, exact, at the torque that gives psidd there. `dynamics` serves
+/// inverse_dynamics and linearisation.
+Matrix forward_dynamics_slopes(Dynamics& dynamics, const Vector& psi, const Vector& psid, const Vector& psidd,
+                               double t);
+
 /// Derivatives of the inverse dynamics tau(psi, psid, psidd), n x n each, exact: with the forward dynamics
 /// psidd(psi, psid, tau), d tau / d psi = -M d psidd / d psi and so for psid; M from d psidd / d tau = M^-1.
 /// `dynamics` serves inverse_dynamics and linearisation.

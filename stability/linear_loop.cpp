@@ -21,12 +21,7 @@ Linearisation::Linearisation(const Experiment& experiment)
 
 LinearLoop Linearisation::at(const Reference& reference, double t) {
   const auto n = reference.psi.size();
-  Vector tau(n);
-  plant_.inverse_dynamics(span_of(reference.psi), span_of(reference.psid), span_of(reference.psidd), t,
-                          span_of(tau));
-  Matrix slopes(n, 3 * n);
-  plant_.linearisation(span_of(reference.psi), span_of(reference.psid), span_of(std::as_const(tau)), t,
-                       {slopes.data(), static_cast<std::size_t>(slopes.size())});
+  const Matrix slopes = forward_dynamics_slopes(plant_, reference.psi, reference.psid, reference.psidd, t);
   if (!slopes.allFinite())
     throw RunFault("singular",
                    fmt::format("the mass matrix is singular at {:.6g} s: nothing to linearise", t));

@@ -10,17 +10,23 @@ namespace {
 
 using oracle::Wide;
 
-/// The largest error inside one step of h from t = 0.5.
-double error_inside(double step) {
-  const Wide t(0.5), h(step);
+/// The method after one step of the known motion from t on.
+DormandPrince<Wide> stepped(const Vec<Wide>& from, const Wide& t, const Wide& h) {
   DormandPrince<Wide> method(3, 7);
-  const Vec<Wide> from = KnownMotion<Wide>::at(t);
   const auto rate = [&](int, const Wide& c, const Vec<Wide>& at, Vec<Wide>& dx) {
     KnownMotion<Wide>::rate(t + c * h, at, dx);
   };
   method.first_stage(from, rate);
   method.try_step(from, h, rate);
   method.last_stage(rate);
+  return method;
+}
+
+/// The largest error inside one step of h from t = 0.5.
+double error_inside(double step) {
+  const Wide t(0.5), h(step);
+  const Vec<Wide> from = KnownMotion<Wide>::at(t);
+  const DormandPrince<Wide> method = stepped(from, t, h);
   Vec<Wide> x(7);
   double largest = 0;
   for (int i = 1; i < 8; ++i) {
@@ -40,14 +46,8 @@ TEST(DenseOutput, OfDormandAndPrinceIsOfOrderFour) {
 
 TEST(DenseOutput, MeetsTheStepsEnds) {
   const Wide t(0.5), h(0.125);
-  DormandPrince<Wide> method(3, 7);
   const Vec<Wide> from = KnownMotion<Wide>::at(t);
-  const auto rate = [&](int, const Wide& c, const Vec<Wide>& at, Vec<Wide>& dx) {
-    KnownMotion<Wide>::rate(t + c * h, at, dx);
-  };
-  method.first_stage(from, rate);
-  method.try_step(from, h, rate);
-  method.last_stage(rate);
+  const DormandPrince<Wide> method = stepped(from, t, h);
   Vec<Wide> x(7);
   dense_output(from, method.next(), h, method.slopes(), Wide(0), x);
   EXPECT_TRUE(x == from);
