@@ -15,5 +15,6 @@ void add_compile_command(CLI::App& app, int& status);
 void add_stability_command(CLI::App& app, int& status);
 void add_spy_command(CLI::App& app, int& status);
 void add_doctor_command(CLI::App& app, int& status);
+void add_export_command(CLI::App& app, int& status);
 
 }  // namespace mixloop

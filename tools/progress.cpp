@@ -6,10 +6,11 @@
 
 namespace mixloop {
 
-Progress::Progress(std::string name, std::int64_t ticks, double rate_hz)
+Progress::Progress(std::string name, std::int64_t ticks, double per_unit, std::string unit)
     : name_(std::move(name)),
       ticks_(ticks),
-      rate_hz_(rate_hz),
+      per_unit_(per_unit),
+      unit_(std::move(unit)),
       on_terminal_(isatty(STDERR_FILENO) == 1),
       next_(std::chrono::steady_clock::now() + std::chrono::milliseconds(500)) {}
 
@@ -23,8 +24,8 @@ void Progress::at(std::int64_t tick) {
   next_ = now + std::chrono::milliseconds(200);
   drawn_ = true;
   const double part = ticks_ > 0 ? static_cast<double>(tick) / static_cast<double>(ticks_) : 1;
-  fmt::print(stderr, "\r{}: {:.3f} of {:.3f} s ({:.0f} %)\033[K", name_, static_cast<double>(tick) / rate_hz_,
-             static_cast<double>(ticks_) / rate_hz_, 100 * part);
+  fmt::print(stderr, "\r{}: {:.3f} of {:.3f} {} ({:.0f} %)\033[K", name_, static_cast<double>(tick) / per_unit_,
+             static_cast<double>(ticks_) / per_unit_, unit_, 100 * part);
   std::fflush(stderr);
 }
 

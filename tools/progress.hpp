@@ -7,11 +7,12 @@
 
 namespace mixloop {
 
-/// A line on the terminal that says how far a run is, redrawn a few times a second; silent where stderr is no
+/// A line on the terminal that says how far some work is, redrawn a few times a second; silent where stderr is no
 /// terminal and for work that is over within half a second.
 class Progress {
  public:
-  Progress(std::string name, std::int64_t ticks, double rate_hz);
+  /// `per_unit` of them make a `unit`, in which the line counts.
+  Progress(std::string name, std::int64_t ticks, double per_unit, std::string unit = "s");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -22,7 +23,8 @@ class Progress {
  private:
   std::string name_;
   std::int64_t ticks_;
-  double rate_hz_;
+  double per_unit_;
+  std::string unit_;
   bool on_terminal_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point next_;
