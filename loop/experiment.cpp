@@ -21,14 +21,14 @@ NodePtr overridden(NodePtr document, const std::vector<Override>& overrides, boo
   return document;
 }
 
-std::shared_ptr<const Scene> scene_at(const Node& node, const std::filesystem::path& base,
-                                      const std::vector<Override>& overrides) {
+NodePtr scene_document_at(const Node& node, const std::filesystem::path& base,
+                          const std::vector<Override>& overrides) {
   const std::filesystem::path file = base / text_of(node, "the path of a scene file");
   std::error_code failure;
   if (!std::filesystem::exists(file, failure))
     throw InputError("no_such_file", node.place,
                      "no scene at " + describe(node) + " (its path counts from the experiment's folder)");
-  return std::make_shared<const Scene>(load_scene(overridden(read_document(file), overrides, true)));
+  return overridden(read_document(file), overrides, true);
 }
 
 double read_rate(const Node& node) {
@@ -74,13 +74,15 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 
 Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file,
                            const std::vector<Override>& overrides) {
-  const Mapping root(overridden(document, overrides, false), "the experiment",
-                     {"scene", "rate", "path", "controller", "plant", "parameters", "limits", "expect"});
   Experiment experiment;
+  experiment.document = overridden(document, overrides, false);
+  const Mapping root(experiment.document, "the experiment",
+                     {"scene", "rate", "path", "controller", "plant", "parameters", "limits", "expect"});
   experiment.file = file;
   experiment.name = file.stem().string();
   const auto base = file.parent_path();
-  experiment.scene = scene_at(*root.at("scene"), base, overrides);
+  experiment.scene_document = scene_document_at(*root.at("scene"), base, overrides);
+  experiment.scene = std::make_shared<const Scene>(load_scene(experiment.scene_document));
   const Scene& scene = *experiment.scene;
   if (const NodePtr rate = root.find("rate")) experiment.rate_hz = read_rate(*rate);
   experiment.path = read_path(root.at("path"), scene);
@@ -88,7 +90,9 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   const NodePtr controller = root.at("controller");
   experiment.controller = read_controller_settings(controller, scene);
   const NodePtr other_scene = find_entry(*controller, "scene");
-  experiment.controller_scene = other_scene ? scene_at(*other_scene, base, {}) : experiment.scene;
+  experiment.controller_scene =
+      other_scene ? std::make_shared<const Scene>(load_scene(scene_document_at(*other_scene, base, {})))
+                  : experiment.scene;
   if (experiment.controller_scene->n() != scene.n())
     throw InputError("wrong_size", other_scene->place,
                      fmt::format("the controller's scene has {} motors, the plant's {}",

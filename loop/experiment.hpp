@@ -28,6 +28,7 @@ Override parse_override(const std::string& text);
 struct Experiment {
   std::string name;  ///< the file's stem
   std::filesystem::path file;
+  NodePtr document, scene_document;               ///< as read, overrides applied: what a result is kept with
   std::shared_ptr<const Scene> scene;             ///< of the plant and the planner
   std::shared_ptr<const Scene> controller_scene;  ///< what the controller takes the robot for
   double rate_hz = 1000;

@@ -12,7 +12,7 @@ namespace mixloop {
 /// that cannot be written. Throws RunFault("cannot_write").
 void prepare_folder(const std::filesystem::path& folder);
 
-/// Keeps a run: result.json and trajectory.csv. Throws RunFault("cannot_write").
+/// Keeps a run: result.json, trajectory.csv and inputs.json. Throws RunFault("cannot_write").
 void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan,
           const Recorder& recorder, const nlohmann::json& result);
 

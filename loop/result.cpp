@@ -2,8 +2,11 @@
 #include "loop/result.hpp"
 
 #include <fmt/format.h>
+#include <gnu/libc-version.h>
+#include <sys/utsname.h>
 
 #include <fstream>
+#include <thread>
 
 #include "notation/sha256.hpp"
 
@@ -15,6 +18,30 @@ std::string processor() {
   for (std::string line; std::getline(info, line);)
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   return "unknown";
+}
+
+/// What a run's times depend on.
+nlohmann::json machine() {
+  utsname system{};
+  uname(&system);
+  return {{"processor", processor()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"kernel", std::string(system.sysname) + " " + system.release}};
+}
+
+/// Each bound beside what was measured.
+nlohmann::json bounds_json(const Expectation& expect, const Measures& measures) {
+  auto list = nlohmann::json::array();
+  for (const auto& bound : expect.bounds) {
+    const double value = bound.value_in(measures);
+    list.push_back({{"name", bound.name},
+                    {"least", bound.least},
+                    {"most", bound.most},
+                    {"value", value},
+                    {"held", value >= bound.least && value <= bound.most}});
+    if (bound.motor >= 0) list.back()["motor"] = bound.motor;
+  }
+  return list;
 }
 
 nlohmann::json integrator_json(const Experiment& experiment) {
@@ -64,7 +91,15 @@ nlohmann::json result_json(const Experiment& experiment, const Measures& measure
       {"scene", experiment.scene->name},
       {"scene_sha256", sha256_hex(experiment.scene->canonical)},
       {"parameters", nlohmann::json::object()},
-      {"versions", {{"mixloop", MIXLOOP_VERSION}, {"compiler", __VERSION__}, {"processor", processor()}}},
+      {"versions",
+       {{"mixloop", MIXLOOP_VERSION},
+        {"compiler", __VERSION__},
+        {"c_library", gnu_get_libc_version()},
+        {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+        {"processor", processor()}}},
+      {"machine", machine()},
+      {"bounds", bounds_json(experiment.expect, measures)},
+      {"expects_divergence", experiment.expect.diverges},
   };
   json["integrator"] = integrator_json(experiment);
   for (std::size_t i = 0; i < experiment.scene->parameters.size(); ++i)

@@ -23,7 +23,9 @@ std::string header(std::size_t n) {
   for (const char* kind : {"desired", "actual"})
     for (const char* what : {"position", "velocity", "acceleration"})
       for (const char axis : {'x', 'y', 'z'}) line += fmt::format(",{}_{}_{}", what, axis, kind);
-  return line + ",kinetic_energy,potential_energy,work";
+  line += ",kinetic_energy,potential_energy,work";
+  add_vector_names(line, "psi_desired", n);
+  return line;
 }
 
 }  // namespace
@@ -44,13 +46,14 @@ void write_trajectory(const std::filesystem::path& file, const Experiment& exper
     fmt::format_to(std::back_inserter(line), "{}", recorder.time(k));
     for (const auto& row : {recorder.psi(k), recorder.psid(k), recorder.commanded(k), recorder.applied(k)})
       add(row);
-    const auto& desired = plan.at(k);
+    const Reference desired = plan.at(k);
     const Truth& truth = truth_of.at(k);
     for (const double* vector :
          {desired.position.data(), desired.velocity.data(), desired.acceleration.data(),
           truth.position.data(), truth.velocity.data(), truth.acceleration.data()})
       add(std::span(vector, 3));
     add(std::array{truth.kinetic_energy, truth.potential_energy, truth.work});
+    add(std::span(desired.psi.data(), n));
     line.push_back('\n');
     std::fwrite(line.data(), 1, line.size(), out);
   }

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <optional>
 
+#include "loop/inputs.hpp"
 #include "loop/keep.hpp"
 #include "loop/result.hpp"
 #include "runtime/clock.hpp"
@@ -221,7 +222,10 @@ nlohmann::json launched(const Experiment& experiment, const Launch& launch, cons
                      "expected 'held' (mixloop simulate runs both)");
   const Plan plan = make_plan(experiment);
   require_multicast_route(multicast_group(launch.bus.url));
-  if (!launch.out.empty()) prepare_folder(launch.out);
+  if (!launch.out.empty()) {
+    prepare_folder(launch.out);
+    keep_inputs(launch.out, experiment);  // also where a stranger's plant keeps nothing
+  }
   make_plant(experiment, plan);  // the programs are compiled once, not by each process
   make_controller(experiment);
   const nlohmann::json warnings = warnings_of(experiment, plan, launch.quiet);

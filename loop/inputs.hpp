@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "loop/experiment.hpp"
+
+namespace mixloop {
+
+/// A document as JSON: scalars are strings, as they were written, so that it reads back by parse_document.
+nlohmann::ordered_json json_of(const Node& node);
+
+/// What a run was started from, overrides applied: {"name", "rate", "experiment", "scene",
+/// "plant_parameters"}. The documents read back (JSON is YAML).
+nlohmann::ordered_json inputs_json(const Experiment& experiment);
+
+/// Writes inputs.json into the folder. Throws RunFault("cannot_write").
+void keep_inputs(const std::filesystem::path& folder, const Experiment& experiment);
+
+}  // namespace mixloop

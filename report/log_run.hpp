@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "report/tick.hpp"
+
+namespace mixloop {
+
+/// One run of a plant in a log.
+struct LogSession {
+  std::int64_t session = 0;
+  std::int32_t n = 0;
+  std::int64_t states = 0;  ///< STATE messages, those sent again included
+  std::int64_t first_tick = 0, last_tick = 0;
+  double rate_hz = 0;  ///< as tick and plant time tell it
+};
+
+/// What the plant said of its timing, a row a message; s.
+struct TimingRow {
+  double t, round_trip_p50, round_trip_p99, round_trip_max, wake_up_p50, wake_up_p99, wake_up_max;
+  double missed, resent, overruns;
+};
+
+/// What a log holds beside its ticks.
+struct LogFacts {
+  std::int64_t states_missing = 0, commands_missing = 0, references_missing = 0;  ///< ticks without
+  std::int64_t dropped = 0;                                                        ///< messages that can't be read
+  bool has_truth = false, is_real_time = false, reached_safe_state = false;
+  std::vector<TimingRow> timing;
+  std::string damage;  ///< of the file, for a person; empty where there is none
+};
+
+/// The sessions of a log, those with the most states first. Throws what LogReader throws, and InputError
+/// `no_states` where no channel PREFIXSTATE has one of ours.
+std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std::string& prefix);
+
+/// Calls `on_tick` for each tick of a session from its first to its last, gaps included; it may complete the
+/// tick. Without TRUTH the torque applied is the commanded one, and the motors' work is that of a torque held
+/// from tick to tick. `rate_hz`: as the session tells it, or better known.
+LogFacts read_log(const std::filesystem::path& log, const std::string& prefix, const LogSession& session,
+                  double rate_hz, std::size_t m, const std::function<void(Tick&)>& on_tick);
+
+}  // namespace mixloop

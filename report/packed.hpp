@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace mixloop {
+
+/// Numbers as a page holds them: bit patterns as differences from the one before, byte planes one after the
+/// other (all lowest bytes first), deflated (zlib), base64. web/shared/unpack.js undoes it.
+std::string packed(std::span<const float> values);
+
+}  // namespace mixloop

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "report/trajectory_reader.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "notation/errors.hpp"
+
+namespace mixloop {
+namespace {
+
+std::string_view mapped(const std::filesystem::path& file) {
+  std::error_code failed;
+  const auto size = std::filesystem::file_size(file, failed);
+  const int fd = failed ? -1 : open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  void* at = fd >= 0 && size > 0 ? mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0) : MAP_FAILED;
+  if (fd >= 0) close(fd);
+  if (at == MAP_FAILED)
+    throw InputError("cannot_read", {file.string()},
+                     "is empty or can't be read; expected the trajectory.csv that --out keeps");
+  madvise(at, size, MADV_SEQUENTIAL);
+  return {static_cast<const char*>(at), size};
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> names;
+  for (std::size_t from = 0; from <= line.size();) {
+    const std::size_t to = std::min(line.find(',', from), line.size());
+    names.push_back(line.substr(from, to - from));
+    from = to + 1;
+  }
+  return names;
+}
+
+/// Where in a tick the column of this name goes; null where it has no place.
+double* place_of(std::string_view name, Tick& tick) {
+  if (name == "t") return &tick.t;
+  if (name == "kinetic_energy") return &tick.kinetic_energy;
+  if (name == "potential_energy") return &tick.potential_energy;
+  if (name == "work") return &tick.work;
+  const std::pair<std::string_view, std::vector<double>*> vectors[] = {{"psi_", &tick.psi},
+                                                                       {"psid_", &tick.psid},
+                                                                       {"psi_desired_", &tick.psi_desired},
+                                                                       {"tau_", &tick.tau},
+                                                                       {"tau_applied_", &tick.tau_applied}};
+  for (const auto& [prefix, values] : vectors) {
+    if (!name.starts_with(prefix)) continue;
+    std::size_t index = 0;
+    const char* end = name.data() + name.size();
+    const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, index);
+    if (error == std::errc() && stop == end && index >= 1 && index <= values->size())
+      return &(*values)[index - 1];
+  }
+  for (const auto& [kind, motion] : {std::pair("desired", &tick.desired), std::pair("actual", &tick.actual)})
+    for (const auto& [what, vector] :
+         {std::pair("position", &motion->position), std::pair("velocity", &motion->velocity),
+          std::pair("acceleration", &motion->acceleration)})
+      for (int axis = 0; axis < 3; ++axis)
+        if (name == fmt::format("{}_{}_{}", what, "xyz"[axis], kind)) return &(*vector)[axis];
+  return nullptr;
+}
+
+}  // namespace
+
+TrajectoryReader::TrajectoryReader(const std::filesystem::path& file) : file_(file), text_(mapped(file)) {
+  const std::size_t end = std::min(text_.find('\n'), text_.size());
+  names_ = split(text_.substr(0, end));
+  at_ = std::min(end + 1, text_.size());
+  while (std::find(names_.begin(), names_.end(), fmt::format("psi_{}", n_ + 1)) != names_.end()) ++n_;
+  if (names_.front() == "t" && n_ > 0) return;
+  const InputError error("not_a_trajectory", {file.string(), 1},
+                         "no header that begins with t,psi_1; expected the trajectory.csv that --out keeps");
+  munmap(const_cast<char*>(text_.data()), text_.size());
+  throw error;
+}
+
+TrajectoryReader::~TrajectoryReader() { munmap(const_cast<char*>(text_.data()), text_.size()); }
+
+void TrajectoryReader::read(std::size_t m, const std::function<void(Tick&)>& on_tick) {
+  Tick tick(n_, m);
+  std::vector<double*> places;
+  for (const auto& name : names_) places.push_back(place_of(name, tick));
+
+  const char *at = text_.data() + at_, *const end = text_.data() + text_.size();
+  for (int line = 2; at < end; ++line, ++tick.k) {
+    tick.actual = {};
+    tick.kinetic_energy = tick.command_age = kUnknown;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      double value = kUnknown;
+      const auto [stop, error] = std::from_chars(at, end, value);
+      const char behind = i + 1 < places.size() ? ',' : '\n';
+      if (error != std::errc() || (stop == end ? behind != '\n' : *stop != behind))
+        throw InputError("not_a_trajectory", {file_.string(), line},
+                         fmt::format("no number for {} ({} columns are expected; is the file cut off?)", names_[i],
+                                     names_.size()));
+      if (places[i]) *places[i] = value;
+      at = stop == end ? end : stop + 1;
+    }
+    on_tick(tick);
+  }
+}
+
+}  // namespace mixloop

@@ -1,0 +1,168 @@
+/** Which figures there are, from what the runs have. A figure of several runs has a colour a run. */
+
+const axes = ['x', 'y', 'z'];
+
+/** The lines of `curves` ([{ curve, name, scale, dash, colour }]) for every run that has them. */
+function linesOf(runs, curves) {
+  return runs.flatMap((run) =>
+    curves
+      .filter(({ curve }) => run.has(curve))
+      .map((line) => ({
+        ...line,
+        run,
+        name: runs.length > 1 ? `${run.label}: ${line.name}` : line.name,
+        colour: runs.length > 1 ? run.index : line.colour,
+      })),
+  );
+}
+
+/** Figures of the groups ([{ title, curves }]); with one run the groups share one figure. */
+function figures(runs, base, groups) {
+  const merged = runs.length > 1 ? groups : [{ title: '', curves: groups.flatMap((group) => group.curves) }];
+  return merged
+    .map(({ title, curves }) => ({
+      ...base,
+      title: title ? `${base.title}, ${title}` : base.title,
+      lines: linesOf(runs, curves),
+    }))
+    .filter((figure) => figure.lines.length > 0);
+}
+
+function ofPaper(runs, number, what, symbol, label) {
+  return figures(
+    runs,
+    { title: `The paper's Figure ${number}: ${what} of the end effector E`, label },
+    axes.map((axis, i) => ({
+      title: axis,
+      curves: [
+        { curve: `${what === 'displacement' ? 'position' : what}_${axis}_actual`, name: `${symbol}${axis} actual`, colour: i },
+        { curve: `${what === 'displacement' ? 'position' : what}_${axis}_desired`, name: `${symbol}${axis} desired`, colour: i, dash: 1 },
+      ],
+    })),
+  );
+}
+
+/** One figure a unit: turning and sliding coordinates don't share an axis. */
+function ofCoordinates(runs, names, title, units, curves) {
+  return [false, true].flatMap((linear) => {
+    const groups = names
+      .map((name, i) => ({ ...name, i }))
+      .filter((name) => name.linear === linear)
+      .map(({ name, i }) => ({ title: name, curves: curves(name, i + 1, i) }));
+    return groups.length ? figures(runs, { title, label: units[linear ? 1 : 0] }, groups) : [];
+  });
+}
+
+/** The sections: [{ id, title, figures: [{ title, label, lines, over? }] }]. */
+export function sections(runs) {
+  const { motors, coordinates } = runs.reduce((a, b) => (b.names.coordinates.length > a.names.coordinates.length ? b : a)).names;
+  const one = (title, label, curves, extra = {}) => figures(runs, { title, label, ...extra }, [{ title: '', curves }]);
+  const each = (title, label, curves, extra = {}) =>
+    figures(runs, { title, label, ...extra }, curves.map((curve) => ({ title: curve.name, curves: [curve] })));
+  return [
+    {
+      id: 'paper-figures',
+      title: "The paper's figures",
+      figures: [
+        ...ofPaper(runs, 2, 'displacement', '', 'Displacement (m)'),
+        ...ofPaper(runs, 3, 'velocity', 'v', 'Velocity (m/s)'),
+        ...ofPaper(runs, 4, 'acceleration', 'a', 'Acceleration (m/s²)'),
+        ...ofCoordinates(runs, motors, "The paper's Figure 5: driving torques", ['Torque (N m)', 'Force (N)'], (name, k, i) => [
+          { curve: `tau_${k}`, name: `τ of ${name}`, colour: i },
+        ]),
+      ],
+    },
+    {
+      id: 'error',
+      title: 'Tracking error',
+      figures: [
+        ...one('Position error over time', 'Error (mm)', [{ curve: 'error', name: '|error|', scale: 1e3, colour: 1 }]),
+        ...each(
+          'Position error in space',
+          'Actual − desired (mm)',
+          axes.map((axis, i) => ({ curve: `error_${axis}`, name: axis, scale: 1e3, colour: i })),
+        ),
+        ...each(
+          'Position error along the path and across it',
+          'Error (mm)',
+          [
+            { curve: 'error_along', name: 'along', scale: 1e3, colour: 0 },
+            { curve: 'error_across', name: 'across', scale: 1e3, colour: 1 },
+          ],
+          { over: 'path_length', note: 'Along: positive where the end effector is ahead. Across: the distance from the path.' },
+        ),
+      ],
+    },
+    {
+      id: 'coordinates',
+      title: 'Coordinates',
+      figures: [
+        ...ofCoordinates(runs, motors, 'Motor coordinates', ['Angle (rad)', 'Displacement (m)'], (name, k, i) => [
+          { curve: `psi_${k}`, name: `${name} actual`, colour: i },
+          { curve: `psi_desired_${k}`, name: `${name} desired`, colour: i, dash: 1 },
+        ]),
+        ...ofCoordinates(runs, motors, 'Motor rates', ['Rate (rad/s)', 'Rate (m/s)'], (name, k, i) => [
+          { curve: `psid_${k}`, name: `${name}′`, colour: i },
+        ]),
+        ...ofCoordinates(runs, coordinates, 'Dependent coordinates', ['Angle (rad)', 'Displacement (m)'], (name, k, i) => [
+          { curve: `q_${k}`, name, colour: i, dash: i > 2 ? 1 : 0 },
+        ]),
+        ...ofCoordinates(
+          runs.filter((run) => differs(run)),
+          motors,
+          'Torque applied, after limits and delay',
+          ['Torque (N m)', 'Force (N)'],
+          (name, k, i) => [
+            { curve: `tau_applied_${k}`, name: `${name} applied`, colour: i },
+            { curve: `tau_${k}`, name: `${name} commanded`, colour: i, dash: 1 },
+          ],
+        ),
+      ],
+    },
+    {
+      id: 'energy',
+      title: 'Energy and power',
+      figures: [
+        ...each('Energy', 'Energy (J)', [
+          { curve: 'kinetic_energy', name: 'kinetic', colour: 0 },
+          { curve: 'potential_energy', name: 'potential', colour: 1 },
+          { curve: 'work', name: 'work of the motors', colour: 2, dash: 1 },
+        ]),
+        ...one(
+          'Energy balance',
+          'Work − change of energy (J)',
+          [{ curve: 'work_lost', name: 'work − change of energy', colour: 3 }],
+          { note: 'What friction, external loads and the integrator take or give.' },
+        ),
+        ...each('Power balance', 'Power (W)', [
+          { curve: 'power', name: 'of the motors', colour: 0 },
+          { curve: 'energy_rate', name: 'change of energy', colour: 1, dash: 1 },
+          { curve: 'power_lost', name: 'difference', colour: 2 },
+        ]),
+        ...ofCoordinates(runs, motors, 'Power of each motor', ['Power (W)', 'Power (W)'], (name, k, i) => [
+          { curve: `motor_power_${k}`, name, colour: i },
+        ]),
+      ],
+    },
+    {
+      id: 'commands',
+      title: 'Commands',
+      figures: one(
+        'Age of commands',
+        'STATE to COMMAND (µs)',
+        [{ curve: 'command_age', name: 'age', scale: 1e6, colour: 0 }],
+        { note: 'As the logger received the two messages; a gap is a tick without a command in the log.' },
+      ),
+    },
+  ];
+}
+
+/** Whether the plant applied anything else than what was commanded. */
+function differs(run) {
+  for (let k = 1; run.has(`tau_applied_${k}`); ++k) {
+    const applied = run.points(`tau_applied_${k}`);
+    const commanded = run.points(`tau_${k}`);
+    for (let i = 0; i < applied.length; ++i) if (applied[i] !== commanded[i] && !Number.isNaN(applied[i])) return true;
+  }
+  return false;
+}
