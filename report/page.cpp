@@ -73,7 +73,7 @@ ordered_json page_data(const std::vector<ReportedRun>& runs) {
                          {"width", run.curves.width()}, {"error", error_json(run.curves.tracking_error())},
                          {"names", names_json(run)},   {"notes", run.notes},
                          {"result", run.result},       {"inputs", run.inputs},
-                         {"log", run.log ? log_json(*run.log) : ordered_json()},
+                         {"log", run.facts ? log_json(*run.facts) : ordered_json()},
                          {"curves", ordered_json::object()}};
     for (const auto& curve : run.curves.all()) {
       if (curve.envelope.empty()) continue;

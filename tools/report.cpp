@@ -14,6 +14,7 @@ namespace mixloop {
 namespace {
 
 constexpr std::size_t kMostBytes = 9'500'000;
+constexpr std::size_t kMostBuckets = std::size_t{1} << 15;  // a curve, of all runs together
 constexpr std::size_t kMostRuns = 8;  // as many as can be told apart
 
 struct Options : CommonOptions {
@@ -45,9 +46,10 @@ std::vector<ReportedRun> read_runs(Options& options) {
     options.read.experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
   else if (!options.sets.empty())
     throw InputError("command_line", {"--set"}, "overrides an experiment's entries; expected --experiment too");
-  while (options.read.capacity * options.paths.size() > std::size_t{1} << 15) options.read.capacity /= 2;
+  std::size_t capacity = kMostBuckets;
+  while (capacity * options.paths.size() > kMostBuckets) capacity /= 2;
   std::vector<ReportedRun> runs;
-  for (const auto& path : options.paths) runs.push_back(read_run(path, options.read));
+  for (const auto& path : options.paths) runs.push_back(read_run(path, options.read, capacity));
   tell_apart(runs);
   return runs;
 }

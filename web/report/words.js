@@ -42,7 +42,7 @@ export function summaryTable(runs) {
     ['… at', (run) => `${shown(run.result?.time_of_max_position_error ?? run.error.time_of_max)} s`],
     ['Final position error', error('final_position_error', 'final')],
     ['Root mean square error', error('rms_position_error', 'rms')],
-    ['Largest torques', result('max_torque', (list) => list.map((x) => shown(x)).join(', '))],
+    ['Largest torques', result('max_torque', (list) => `${list.map((x) => shown(x)).join(', ')} N m`)],
     ['Diverged at', result('diverged_at', (t) => `${shown(t)} s`)],
     ['Interrupted at', result('interrupted_at', (t) => `${shown(t)} s`)],
     ['Ticks', (run) => `${run.ticks - 1} at ${shown(run.rate)} Hz`],
@@ -126,8 +126,8 @@ export function paperTable(run) {
     h('p', {},
       'The 12 mm are not reached: with the paper’s published parameters, independent derivations (a hand-derived ' +
       'Lagrangian, a numeric Newton-Euler, the paper’s own matrices) agree on 13.18 mm with the control law evaluated ' +
-      'continuously and 13.21 mm with the torque held over each tick, as a bus does. None of some seventy other ' +
-      'readings of the paper gives 12, and nothing here is tuned to it.'));
+      'continuously and 13.21 mm with the torque held over each tick, as a bus does. Of some seventy other ' +
+      'readings of the paper none that is plausible gives 12, and nothing here is tuned to it.'));
 }
 
 /** How the log's messages came through, and the plant's own timing. */

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "report/run_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "dynamics/scene/load_scene.hpp"
+#include "loop/inputs.hpp"
+#include "report/mechanism.hpp"
+#include "report/trajectory_reader.hpp"
+
+namespace mixloop {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json read_json(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  auto json = ordered_json::parse(in, nullptr, false);
+  if (!in || !json.is_object())
+    throw InputError("not_a_result", {file.string()}, "is no JSON object; expected what --out keeps");
+  return json;
+}
+
+bool is_there(const std::filesystem::path& file) {
+  std::error_code failed;
+  return std::filesystem::exists(file, failed);
+}
+
+/// What is known of the mechanism, from the kept inputs or an experiment that was named.
+struct Known {
+  ordered_json inputs;
+  std::shared_ptr<const Scene> scene;
+  std::vector<double> parameters;
+  double rate_hz = 0;  ///< 0: not known
+};
+
+Known from_inputs(const std::filesystem::path& file) {
+  Known known{.inputs = read_json(file)};
+  const auto at = [&](const char* key) -> const ordered_json& {
+    if (!known.inputs.contains(key))
+      throw InputError("missing_key", {file.string()}, fmt::format("has no '{}'; expected what --out keeps", key));
+    return known.inputs.at(key);
+  };
+  known.scene = std::make_shared<const Scene>(
+      load_scene(parse_document(at("scene").dump(), file.string() + " (scene)")));
+  known.parameters = known.scene->default_parameters();
+  for (std::size_t i = 0; i < known.parameters.size(); ++i)
+    known.parameters[i] = at("plant_parameters").value(known.scene->parameters[i].name, known.parameters[i]);
+  known.rate_hz = at("rate").get<double>();
+  return known;
+}
+
+Known known_of(const std::filesystem::path& folder, const ReadOptions& options) {
+  if (options.experiment)
+    return {.inputs = inputs_json(*options.experiment),
+            .scene = options.experiment->scene,
+            .parameters = options.experiment->plant_parameters,
+            .rate_hz = options.experiment->rate_hz};
+  if (is_there(folder / "inputs.json")) return from_inputs(folder / "inputs.json");
+  return {};
+}
+
+LogSession chosen_session(const std::filesystem::path& log, const ReadOptions& options, std::int64_t wanted,
+                          std::vector<std::string>& notes) {
+  const auto sessions = sessions_in(log, options.prefix);
+  const auto at = std::find_if(sessions.begin(), sessions.end(),
+                               [&](const LogSession& s) { return wanted == 0 || s.session == wanted; });
+  if (at == sessions.end()) {
+    std::string list;
+    for (const auto& session : sessions) list += fmt::format("{}{}", list.empty() ? "" : ", ", session.session);
+    throw InputError("no_such_session", {log.string()}, fmt::format("no session {}; it has {}", wanted, list));
+  }
+  if (sessions.size() > 1)
+    notes.push_back(fmt::format("The log has {} sessions; this is {}. Another: --session ID.", sessions.size(),
+                                at->session));
+  return *at;
+}
+
+void add_notes(const LogFacts& facts, std::vector<std::string>& notes) {
+  const auto say = [&](std::int64_t count, const char* what) {
+    if (count > 0) notes.push_back(fmt::format("{} {}", count, what));
+  };
+  say(facts.states_missing, "ticks have no STATE in the log: gaps.");
+  say(facts.commands_missing, "ticks have no COMMAND in the log.");
+  say(facts.references_missing, "ticks have no REFERENCE in the log.");
+  say(facts.dropped, "messages of the run could not be read.");
+  if (!facts.damage.empty()) notes.push_back("The log's file: " + facts.damage + ".");
+}
+
+/// What is known before the ticks: of a folder, then of a log.
+RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& options, Known known) {
+  RunFile run{.label = folder.filename().string(), .source = folder.string(), .trajectory = folder / "trajectory.csv"};
+  run.n = TrajectoryReader(run.trajectory).n();
+  run.result = read_json(folder / "result.json");
+  run.label = run.result.value("experiment", run.label);
+  run.rate_hz = run.result.value("rate", known.rate_hz > 0 ? known.rate_hz : 1000.0);
+  if (const auto log = folder / "run.lcmlog"; is_there(log)) {
+    run.log = log;
+    run.session = chosen_session(log, options, run.result.value("session", options.session), run.notes);
+  }
+  if (!known.scene) run.notes.push_back("No inputs.json: dependent coordinates are not shown.");
+  return run;
+}
+
+RunFile opened_log(const std::filesystem::path& log, const ReadOptions& options, const Known& known) {
+  RunFile run{.label = log.stem().string(), .source = log.string(), .from_log = true, .log = log};
+  run.session = chosen_session(log, options, options.session, run.notes);
+  run.n = static_cast<std::size_t>(run.session->n);
+  run.first_tick = run.session->first_tick;
+  if (known.inputs.is_object()) run.label = known.inputs.value("name", run.label);
+  run.rate_hz = known.rate_hz > 0 ? known.rate_hz : run.session->rate_hz;
+  return run;
+}
+
+std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism, const std::function<void(Tick&)>& on_tick) {
+  std::optional<LogFacts> facts;
+  std::vector<double> ages;
+  if (run.session) {
+    facts = read_log(run.log, run.prefix, *run.session, run.rate_hz, 0, [&](const Tick& tick) {
+      ages.resize(static_cast<std::size_t>(tick.k), kUnknown);
+      ages.push_back(tick.command_age);
+    });
+    add_notes(*facts, run.notes);
+  }
+  TrajectoryReader(run.trajectory).read(run.m, [&](Tick& tick) {
+    if (mechanism) mechanism->complete(tick);
+    if (const auto k = static_cast<std::size_t>(tick.k); k < ages.size()) tick.command_age = ages[k];
+    on_tick(tick);
+  });
+  return facts;
+}
+
+LogFacts read_log_alone(RunFile& run, Mechanism* mechanism, const std::function<void(Tick&)>& on_tick) {
+  LogFacts facts = read_log(run.log, run.prefix, *run.session, run.rate_hz, run.m, [&](Tick& tick) {
+    if (mechanism) mechanism->complete(tick);
+    on_tick(tick);
+  });
+  add_notes(facts, run.notes);
+  if (!facts.has_truth && run.scene)
+    run.notes.push_back(
+        "The log has no TRUTH: the end effector's motion and the energies are worked out from the measured state and "
+        "the commanded torque by the scene.");
+  if (!facts.has_truth && !run.scene)
+    run.notes.push_back(
+        "The log has no TRUTH and no inputs.json beside it: without the scene (--experiment FILE) there is no actual "
+        "motion of the end effector.");
+  return facts;
+}
+
+}  // namespace
+
+RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) {
+  std::error_code failed;
+  const bool is_folder = std::filesystem::is_directory(path, failed);
+  const bool is_result = is_folder && is_there(path / "trajectory.csv") && is_there(path / "result.json");
+  if (is_folder && !is_result && !is_there(path / "run.lcmlog"))
+    throw InputError("not_a_result", {path.string()},
+                     "no result.json with a trajectory.csv and no run.lcmlog in it; expected a folder that "
+                     "`mixloop simulate` or `run` kept by --out");
+  const std::filesystem::path log = is_folder ? path / "run.lcmlog" : path;
+  const Known known = known_of(log.parent_path(), options);
+  RunFile run = is_result ? opened_folder(path, options, known) : opened_log(log, options, known);
+  run.prefix = options.prefix;
+  run.inputs = known.inputs;
+  run.scene = known.scene;
+  run.parameters = known.parameters;
+  if (run.scene) run.m = static_cast<std::size_t>(run.scene->m());
+  if (run.scene && static_cast<std::size_t>(run.scene->n()) != run.n)
+    throw InputError("wrong_size", {run.source}, fmt::format("{} motors; the scene has {}", run.n, run.scene->n()));
+  return run;
+}
+
+std::optional<LogFacts> read_ticks(RunFile& run, const std::function<void(Tick&)>& on_tick) {
+  std::optional<Mechanism> mechanism;
+  if (run.scene) mechanism.emplace(run.scene, run.parameters);
+  Mechanism* known = mechanism ? &*mechanism : nullptr;
+  if (run.from_log) return read_log_alone(run, known, on_tick);
+  return read_folder(run, known, on_tick);
+}
+
+}  // namespace mixloop

@@ -1,0 +1,37 @@
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { chromium } from 'playwright-core';
+
+const flags = [
+  '--no-sandbox',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
+/** WebGL without a graphics card. */
+export const webgl = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
+/** Opens a tab of a browser of its own, calls `look(browser, tab)`, and holds that no script failed or complained. */
+export async function opened(executablePath, look, more = ['--disable-gpu']) {
+  const profile = mkdtempSync(path.join(tmpdir(), 'mixloop-browser-'));
+  const context = await chromium.launchPersistentContext(profile, {
+    executablePath,
+    args: [...flags, ...more],
+    viewport: { width: 1280, height: 900 },
+  });
+  try {
+    const tab = context.pages()[0] ?? (await context.newPage());
+    const complaints = [];
+    tab.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
+    tab.on('pageerror', (error) => complaints.push(String(error.stack)));
+    await look(context, tab, complaints);
+    assert.deepEqual(complaints, [], 'the console is silent');
+  } finally {
+    await context.close();
+    rmSync(profile, { recursive: true, force: true });
+  }
+}
