@@ -36,27 +36,25 @@ int main(int argc, char** argv) {
 
   const pid_t planner = in_child([&] {
     Bus bus;
-    PlannerOptions options;
-    options.n = n;
-    PlannerPeer(bus, stop, options, {.refer = [](std::int64_t, reference_t&) {}, .begin = {}}).run();
+    PlannerPeer(bus, stop, {.n = n}, {.refer = [](std::int64_t, reference_t&) {}, .begin = {}}).run();
   });
   const pid_t controller = in_child([&] {
     Bus bus;
     ControllerSide side;
-    side.compute = [](std::int64_t, auto, auto, const reference_t&, std::span<double>) {};
+    side.compute = [](const state_t&, const reference_t&, std::span<double>) { return 0; };
     ControllerPeer(bus, stop, {.n = n}, side).run();
   });
 
   Bus bus;
-  LockstepPlant plant(bus, stop, {.n = n, .last_tick = ticks},
-                      {.measure = [](std::int64_t, std::span<double>, std::span<double>) {},
-                       .advance = [](std::int64_t, std::span<const double>) { return true; },
-                       .truth = {}});
+  PlantSide side;
+  side.measure = [](std::int64_t, std::span<double>, std::span<double>) {};
+  side.advance = [](std::int64_t, std::span<const double>) { return true; };
+  LockstepPlant plant(bus, stop, {.n = n, .last_tick = ticks}, side);
   plant.run();
   waitpid(planner, nullptr, 0);
   waitpid(controller, nullptr, 0);
 
-  const LockstepReport& report = plant.report();
+  const PlantReport& report = plant.report();
   const auto seconds = [](nanoseconds t) { return std::chrono::duration<double>(t).count(); };
   std::printf(
       R"({"ticks": %ld, "rate": %.1f, "round_trip_p50": %.9f, "round_trip_p99": %.9f, "round_trip_max": %.9f, )"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "controller/safety_settings.hpp"
 #include "dynamics/procedure/matrix.hpp"
 #include "dynamics/scene/scene.hpp"
 #include "notation/document.hpp"
@@ -21,9 +22,10 @@ struct ControllerSettings {
   Law law = Law::kPdFeedforward;
   FeedforwardAt feedforward_at = FeedforwardAt::kMeasured;
   Vector kp, kv;  ///< n: the diagonals of Kp (N m/rad) and Kv (N m s/rad)
+  SafetySettings safety;
 };
 
-/// Reads `{law, kp, kv, feedforward_at}`; the keys `parameters` and `scene` belong to the experiment.
+/// Reads `{law, kp, kv, feedforward_at, safety}`; the keys `parameters` and `scene` belong to the experiment.
 ControllerSettings read_controller_settings(const NodePtr& node, const Scene& scene);
 
 }  // namespace mixloop

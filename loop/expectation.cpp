@@ -30,7 +30,7 @@ double Expectation::Bound::value_in(const Measures& measures) const {
 Expectation read_expectation(const NodePtr& node, const Scene& scene) {
   const Mapping entry(
       node, "what is expected",
-      {"max_position_error", "final_position_error", "rms_position_error", "max_torque", "diverges"});
+      {"max_position_error", "final_position_error", "rms_position_error", "max_torque", "diverges", "safe_state"});
   Expectation expectation;
   for (const auto& known : kErrors) {
     const NodePtr bound = entry.find(known.name);
@@ -53,6 +53,7 @@ Expectation read_expectation(const NodePtr& node, const Scene& scene) {
            number_of(*items[i], scene.motors[i].linear ? kForce : kMoment, "max_torque")});
   }
   if (const NodePtr diverges = entry.find("diverges")) expectation.diverges = flag_of(*diverges, "diverges");
+  if (const NodePtr safe = entry.find("safe_state")) expectation.safe_state = flag_of(*safe, "safe_state");
   return expectation;
 }
 
@@ -61,6 +62,10 @@ std::vector<std::string> missed(const Expectation& expectation, const Measures& 
   if (measures.diverged_at.has_value() != expectation.diverges)
     lines.push_back(expectation.diverges ? "it did not diverge; expected divergence"
                                          : fmt::format("it diverged at {:.6g} s", *measures.diverged_at));
+  if (measures.safe_at.has_value() != expectation.safe_state)
+    lines.push_back(expectation.safe_state
+                        ? "it kept out of its safe state; expected that"
+                        : fmt::format("it went into its safe state at {:.6g} s", *measures.safe_at));
   if (measures.diverged_at) return lines;
   for (const auto& bound : expectation.bounds) {
     const double value = bound.value_in(measures);

@@ -20,6 +20,7 @@ struct Expectation {
   };
   std::vector<Bound> bounds;
   bool diverges = false;
+  bool safe_state = false;  ///< in real time: the plant goes into its safe state
 };
 
 /// Reads `{max_position_error: 13.3 mm, max_torque: [2, 5, 3], diverges: true}`; a bound may be a pair

@@ -77,7 +77,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   Experiment experiment;
   experiment.document = overridden(document, overrides, false);
   const Mapping root(experiment.document, "the experiment",
-                     {"scene", "rate", "path", "controller", "plant", "parameters", "limits", "expect"});
+                     {"scene", "rate", "path", "controller", "plant", "real_time", "parameters", "limits", "expect"});
   experiment.file = file;
   experiment.name = file.stem().string();
   const auto base = file.parent_path();
@@ -100,6 +100,13 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
 
   const NodePtr plant = root.find("plant");
   if (plant) experiment.plant = read_plant_settings(plant, scene);
+  if (const NodePtr real_time = root.find("real_time")) experiment.deadline = read_deadline_settings(real_time);
+  experiment.deadline.kp = experiment.controller.kp;
+  experiment.deadline.kv = experiment.controller.kv;
+  if (experiment.plant.continuous && !experiment.controller.safety.torque_rate_limit.empty())
+    throw InputError("out_of_range", find_entry(*controller, "safety")->place,
+                     "a torque_rate_limit is from command to command, which control: continuous has not; expected "
+                     "control: held");
   experiment.parameters = parameter_values(scene, root.find("parameters"), scene.default_parameters());
   experiment.plant_parameters = parameter_values(scene, parameters_in(plant), experiment.parameters);
   experiment.controller_parameters = parameter_values(
@@ -133,6 +140,10 @@ Controller make_controller(const Experiment& experiment) {
                     experiment.controller);
 }
 
+GuardedController make_guarded_controller(const Experiment& experiment) {
+  return GuardedController(make_controller(experiment), experiment.controller.safety, experiment.controller.kv);
+}
+
 Experiment with_integrator_settled(Experiment experiment, const Plan& plan) {
   if (!experiment.plant.automatic || experiment.integrator_choice) return experiment;
   const IntegratorChoice choice =
@@ -156,6 +167,11 @@ Plant make_plant(const Experiment& experiment, const Plan& plan) {
                    ? dynamics({Purpose::forward_dynamics, Purpose::linearisation})
                    : dynamics({Purpose::forward_dynamics}),
                experiment.plant, experiment.rate_hz, span_of(start));
+}
+
+DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan) {
+  return DeadlinePlant(make_plant(experiment, plan), experiment.plant, experiment.deadline, experiment.rate_hz,
+                       plan.ticks());
 }
 
 CommonGround common_ground(const Experiment& experiment) {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "controller/control_law.hpp"
+#include "controller/guarded_controller.hpp"
 #include "loop/expectation.hpp"
 #include "loop/integrator_choice.hpp"
 #include "planner/plan.hpp"
-#include "plant/plant.hpp"
+#include "plant/deadline_plant.hpp"
 
 namespace mixloop {
 
@@ -35,6 +35,7 @@ struct Experiment {
   Path path;
   ControllerSettings controller;
   PlantSettings plant;
+  DeadlineSettings deadline;                      ///< in real time
   std::vector<double> parameters;  ///< shared
   std::vector<double> plant_parameters;
   std::vector<double> controller_parameters;
@@ -57,7 +58,9 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
 /// The parts of the loop. make_plan checks the whole path first and throws InputError where it can't be run.
 Plan make_plan(const Experiment& experiment);
 Controller make_controller(const Experiment& experiment);
+GuardedController make_guarded_controller(const Experiment& experiment);
 Plant make_plant(const Experiment& experiment, const Plan& plan);
+DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan);
 
 /// The experiment with `integrator: auto` settled; as it is where one is named.
 Experiment with_integrator_settled(Experiment experiment, const Plan& plan);

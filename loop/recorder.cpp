@@ -37,7 +37,7 @@ bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<cons
     squared += error * error;
   }
   error_ = std::sqrt(squared);
-  if (!(error_ <= limit_)) return diverged(k);
+  if (!measures_.safe_at && !(error_ <= limit_)) return diverged(k);
 
   double* to = row(k);
   std::copy(psi.begin(), psi.end(), to);
@@ -54,7 +54,7 @@ bool Recorder::command(std::int64_t k, std::span<const double> tau, std::span<co
   if (k > plan_.ticks()) return true;
   recorded_ = k + 1;
   measures_.max_torque = measures_.max_torque.cwiseMax(map_of(tau).cwiseAbs());
-  if (k < plan_.start_tick()) return true;
+  if (k < plan_.start_tick() || measures_.safe_at) return true;
   if (error_ > measures_.max_position_error) {
     measures_.max_position_error = error_;
     measures_.time_of_max_position_error = time(k);
@@ -71,6 +71,8 @@ bool Recorder::diverged(std::int64_t k) {
 }
 
 void Recorder::interrupted() { measures_.interrupted_at = time(std::max<std::int64_t>(recorded_ - 1, 0)); }
+
+void Recorder::made_safe(std::int64_t k) { measures_.safe_at = time(k); }
 
 Measures Recorder::measures() const {
   Measures result = measures_;

@@ -24,6 +24,8 @@ class Recorder {
   bool command(std::int64_t k, std::span<const double> tau, std::span<const double> applied);
 
   void interrupted();
+  /// From tick k on the plant is in its safe state: recorded, and judged no more.
+  void made_safe(std::int64_t k);
 
   std::int64_t ticks_recorded() const { return recorded_; }
   std::span<const double> psi(std::int64_t k) const { return column(k, 0); }

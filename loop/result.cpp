@@ -64,6 +64,11 @@ Verdict judge(const Experiment& experiment, const Measures& measures) {
     verdict.exit_status = kRunFault;
     return verdict;
   }
+  if (measures.safe_at) {
+    verdict.word = verdict.missed.empty() ? "held" : "safe_state";
+    verdict.exit_status = kRunFault;
+    return verdict;
+  }
   verdict.word = verdict.missed.empty() ? "held" : "missed";
   verdict.exit_status = verdict.missed.empty() ? kHeld : kMissed;
   return verdict;
@@ -105,6 +110,7 @@ nlohmann::json result_json(const Experiment& experiment, const Measures& measure
   for (std::size_t i = 0; i < experiment.scene->parameters.size(); ++i)
     json["parameters"][experiment.scene->parameters[i].name] = experiment.plant_parameters[i];
   if (measures.diverged_at) json["diverged_at"] = *measures.diverged_at;
+  if (measures.safe_at) json["safe_at"] = *measures.safe_at;
   if (measures.interrupted_at) json["interrupted_at"] = *measures.interrupted_at;
   return json;
 }
@@ -116,6 +122,10 @@ std::string summary(const Experiment& experiment, const nlohmann::json& result) 
         "  diverged at {:.6g} s: the position error passed {:.6g} mm or a value was not finite; nothing of "
         "that tick was published\n",
         result.at("diverged_at").get<double>(), experiment.position_error_limit * 1e3);
+  if (result.contains("safe_at"))
+    text += fmt::format("  safe state from {:.6g} s on{}; what follows is judged up to there\n",
+                        result.at("safe_at").get<double>(),
+                        result.contains("safe_cause") ? ": " + result["safe_cause"].get<std::string>() : "");
   if (result.contains("interrupted_at"))
     text += fmt::format("  interrupted at {:.6g} s; what follows is up to there\n",
                         result.at("interrupted_at").get<double>());

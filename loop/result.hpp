@@ -16,7 +16,7 @@ enum ExitStatus : int { kHeld = 0, kMissed = 1, kBadInput = 2, kRunFault = 3, kI
 
 /// A run judged against what its experiment expects.
 struct Verdict {
-  std::string word;                 ///< "held", "missed", "diverged" or "interrupted"
+  std::string word;                 ///< "held", "missed", "diverged", "safe_state" or "interrupted"
   std::vector<std::string> missed;  ///< each bound that was missed, in words
   int exit_status = kHeld;          ///< of `simulate` and `run`: divergence is 3, expected or not
 };

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "loop/simulate.hpp"
 
+#include "notation/errors.hpp"
+
 namespace mixloop {
+
+void require_start(const GuardedController& controller, std::span<const double> psi, const Plan& plan) {
+  const std::string refusal = controller.start_refusal(psi, plan.at(0));
+  if (!refusal.empty()) throw RunFault("not_at_start", refusal);
+}
 
 void simulate(const Experiment& experiment, const Plan& plan, Recorder& recorder,
               const std::function<bool(std::int64_t k)>& go_on) {
   Plant plant = make_plant(experiment, plan);
-  Controller controller = make_controller(experiment);
+  GuardedController controller = make_guarded_controller(experiment);
+  require_start(controller, plant.psi(), plan);
   Vector tau = Vector::Zero(experiment.scene->n());
   const auto control = [&](int stage, double t, std::span<const double> psi, std::span<const double> psid,
                            std::span<double> out) {
-    controller.torque(psi, psid, plan.at_stage(plant.tick(), stage), t, out);
+    controller.torque(psi, psid, false, plan.at_stage(plant.tick(), stage), t, out);
   };
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
     if (!recorder.state(k, plant.psi(), plant.psid(), plant.work())) return;
     if (!go_on(k)) return recorder.interrupted();
-    controller.torque(plant.psi(), plant.psid(), plan.at(k), plant.time(), span_of(tau));
+    controller.torque(plant.psi(), plant.psid(), false, plan.at(k), plant.time(), span_of(tau));
     plant.command(span_of(std::as_const(tau)));
     if (!recorder.command(k, span_of(std::as_const(tau)), plant.applied())) return;
     if (k == plan.ticks()) return;

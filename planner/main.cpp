@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
 // mixloop-planner: publishes the REFERENCE of each tick one tick ahead of the plant.
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "runtime/planner_peer.hpp"
 #include "tools/bus_line.hpp"
 #include "tools/peer.hpp"
@@ -21,20 +17,6 @@ void fill(const Reference& reference, reference_t& message) {
   copy(reference.acceleration, message.acceleration_desired);
 }
 
-/// A plant that stands elsewhere would be thrown to the first reference.
-void require_start(const state_t& first, const Reference& start) {
-  constexpr double kNear = 0.02;  // rad or m, of a motor: far above what a sensor errs, far below what throws
-  if (first.seq != 0) return;
-  for (std::size_t i = 0; i < first.psi_measured.size(); ++i) {
-    const double desired = start.psi[static_cast<Eigen::Index>(i)];
-    if (std::abs(first.psi_measured[i] - desired) <= kNear) continue;
-    throw RunFault("not_at_start",
-                   fmt::format("motor {} of the plant stands at {:.6g}, the references start at {:.6g}; say "
-                               "where it stands (plant.initial), so that a move to the start is planned",
-                               i + 1, first.psi_measured[i], desired));
-  }
-}
-
 int run(const PeerLine& line) {
   StopSwitch stop;
   stop.turn_on_signals();
@@ -42,17 +24,15 @@ int run(const PeerLine& line) {
   const Plan plan = make_plan(experiment);
 
   Bus bus(line.bus);
-  PlannerOptions options{peer_options(line, experiment, plan.ticks())};
-  options.rate_hz = experiment.rate_hz;
   PlannerSide side;
-  side.begin = [&](const state_t& first) { require_start(first, plan.at(0)); };
   side.refer = [&](std::int64_t k, reference_t& message) {
     fill(plan.at(k), message);
     message.phase = k < plan.start_tick() ? reference_t::PHASE_MOVE_TO_START
                     : k > plan.ticks()    ? reference_t::PHASE_HOLD
                                           : reference_t::PHASE_PATH;
   };
-  PlannerPeer peer(bus, stop, options, std::move(side));
+  PlannerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()), std::move(side));
+  line.take_rights("mixloop-planner", line.session == 0);
   return ended("mixloop-planner", peer.run(), peer.report(), stop);
 }
 

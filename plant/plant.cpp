@@ -17,7 +17,8 @@ Plant::Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::spa
       applied_(Vector::Zero(static_cast<Eigen::Index>(n_))),
       before_(applied_),
       scratch_(applied_),
-      integrator_({settings_.integrator, settings_.substeps, settings_.local_error}, applied_.size(), x_.size()),
+      integrator_({settings_.integrator, settings_.substeps, settings_.local_error}, applied_.size(),
+                  x_.size()),
       rows_(stage_rows(settings_.integrator)),
       linearisation_(Vector::Zero(3 * applied_.size() * applied_.size())),
       timed_(constraints_depend_on_time(dynamics_.scene()) || loads_depend_on_time(dynamics_.scene())) {
@@ -49,6 +50,27 @@ void Plant::advance() {
   ++tick_;
 }
 
+void Plant::take_effect(double offset, std::span<const double> tau) {
+  const double to = std::clamp(offset, within_, 1.0 / rate_hz_);
+  if (to > within_) integrate_held(time() + within_, to - within_);
+  within_ = to;
+  saturate(tau);
+}
+
+void Plant::finish_tick() {
+  const double rest = 1.0 / rate_hz_ - within_;
+  if (rest > 0) integrate_held(time() + within_, rest);
+  within_ = 0;
+  ++tick_;
+}
+
+void Plant::lock() {
+  const auto n = static_cast<Eigen::Index>(n_);
+  x_.segment(n, n).setZero();
+  applied_.setZero();
+  locked_ = true;
+}
+
 void Plant::acceleration(std::span<double> psidd) {
   dynamics_.forward_dynamics(psi(), psid(), applied(), time(), psidd);
 }
@@ -61,8 +83,11 @@ void Plant::saturate(std::span<const double> tau) {
 }
 
 void Plant::integrate_held(double t, double length) {
+  if (locked_) return;
   const auto rate = [&](int, int, double after, const Vector& x, Vector& dx) { rate_of(t + after, x, dx); };
-  const auto linear = [&](double after, const Vector& x, auto& jacobian) { linearise(t + after, x, jacobian); };
+  const auto linear = [&](double after, const Vector& x, auto& jacobian) {
+    linearise(t + after, x, jacobian);
+  };
   if (!facts(settings_.integrator).jacobian) return integrator_.advance(x_, length, rate, linear);
   // Such a method leaves the work alone; of a held torque it is tau . (psi+ - psi).
   const auto n = static_cast<Eigen::Index>(n_);

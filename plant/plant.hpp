@@ -32,8 +32,18 @@ class Plant {
   /// Goes on to the next tick, the commands held.
   void advance();
 
-  /// Goes on to the next tick, `control(row, t, psi, psid, tau)` evaluated at every stage of the method; rows are those
-  /// of stage_rows, one substep's after the other's. Of a method with a Jacobian: undefined.
+  /// Goes on within the tick to `offset` s after its start; from there on `tau` acts, at once: a real-time
+  /// command's arrival. Offsets of a tick don't fall; those before what is reached act there.
+  void take_effect(double offset, std::span<const double> tau);
+  /// Goes on to the next tick from where take_effect left it, or from the tick's start.
+  void finish_tick();
+
+  /// The motors lock where they stand, for good: velocities are zero and positions stay. What that absorbs is
+  /// no work of theirs.
+  void lock();
+
+  /// Goes on to the next tick, `control(row, t, psi, psid, tau)` evaluated at every stage of the method; rows
+  /// are those of stage_rows, one substep's after the other's. Of a method with a Jacobian: undefined.
   template <class Control>
   void advance_continuously(const Control& control);
 
@@ -54,7 +64,9 @@ class Plant {
   std::int64_t tick_ = 0;
   std::size_t delay_ticks_ = 0;  ///< whole ticks of the command delay
   double delay_rest_ = 0;        ///< and the rest, s
-  Vector x_;                     ///< psi, psid, work
+  bool locked_ = false;
+  double within_ = 0;  ///< s after the tick's start that take_effect has reached
+  Vector x_;           ///< psi, psid, work
   Vector applied_, before_, scratch_;
   std::vector<Vector> commands_;  ///< a ring by tick, as long as the delay needs
   Integrator integrator_;
@@ -67,7 +79,8 @@ template <class Control>
 void Plant::advance_continuously(const Control& control) {
   const auto rate = [&](int step, int stage, double t, const Vector& x, Vector& dx) {
     const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
-    control(rows_.rows * step + rows_.row[static_cast<std::size_t>(stage)], time() + t, psi, psid, span_of(applied_));
+    control(rows_.rows * step + rows_.row[static_cast<std::size_t>(stage)], time() + t, psi, psid,
+            span_of(applied_));
     saturate(span_of(std::as_const(applied_)));
     rate_of(time() + t, x, dx);
   };

@@ -19,7 +19,13 @@ void sleep_until(Instant due) {
 }
 
 Pacer::Pacer(double rate_hz, double speed, nanoseconds slack)
-    : ticks_per_second_(rate_hz * speed), slack_(slack) {}
+    : rate_hz_(rate_hz), ticks_per_second_(rate_hz * speed), slack_(slack) {}
+
+void Pacer::go_on(std::int64_t tick, Instant at, double speed) {
+  ticks_per_second_ = rate_hz_ * speed;
+  start_ = at;
+  if (paced()) start_ -= due(tick) - start_;
+}
 
 Instant Pacer::due(std::int64_t tick) const {
   return start_ + nanoseconds(std::llround(1e9 * static_cast<double>(tick) / ticks_per_second_));

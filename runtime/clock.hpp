@@ -25,14 +25,17 @@ class Pacer {
 
   bool paced() const { return ticks_per_second_ > 0; }  ///< false for speed 0: as fast as it goes
   void start(Instant tick_0) { start_ = tick_0; }
+  /// From `tick` on, which is due at `at`, goes on with another speed or after a pause.
+  void go_on(std::int64_t tick, Instant at, double speed);
   /// The instant of a tick: start + tick / (rate * speed), by one division.
   Instant due(std::int64_t tick) const;
   /// Moves the schedule where `tick` begins at `at`, more than the slack late.
   void began(std::int64_t tick, Instant at);
+  double speed() const { return ticks_per_second_ / rate_hz_; }
   nanoseconds slipped() const { return slipped_; }  ///< in total
 
  private:
-  double ticks_per_second_;
+  double rate_hz_, ticks_per_second_;
   nanoseconds slack_;
   nanoseconds slipped_{0};
   Instant start_{0};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/controller_peer.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -8,6 +10,11 @@
 #include "runtime/config_hash.hpp"
 
 namespace mixloop {
+namespace {
+
+constexpr double kReferenceWait = 0.25;  // ticks: what is missing by then is extrapolated
+
+}  // namespace
 
 ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptions& options,
                                ControllerSide side)
@@ -19,29 +26,42 @@ ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptio
       command_(options.n),
       reference_channel_(bus.channel("REFERENCE")),
       command_channel_(bus.channel("COMMAND")),
-      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n)}) {
+      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n)}),
+      extrapolated_(blank<reference_t>(options.n)) {
   if (!side_.compute) throw std::logic_error("the controller has no law to compute");
   bus_.subscribe<&ControllerPeer::on_reference>(reference_channel_, this);
 }
 
 Ending ControllerPeer::run() {
   for (;;) {
-    switch (link_.next()) {
+    const PlantLink::Event event = link_.next(next_look());
+    drained_ = event == PlantLink::Event::nothing;
+    switch (event) {
       case PlantLink::Event::over:
+        if (link_.ending() == Ending::stopped && in_real_time()) send_safe(command_t::FLAG_STOPPED);
         return link_.ending();
       case PlantLink::Event::fresh:
         if (link_.first_of_session()) begin_session();
         asked_ = now();
+        silence_answered_ = false;
         break;
       case PlantLink::Event::repeated:
         repeat();
         break;
       case PlantLink::Event::other:
+      case PlantLink::Event::nothing:
         break;
     }
     require_planner();
-    answer_if_ready();
+    if (in_real_time())
+      attend_to_time();
+    else
+      answer_if_ready();
   }
+}
+
+nanoseconds ControllerPeer::ticks(double number) const {
+  return nanoseconds(std::llround(1e9 * number / options_.rate_hz));
 }
 
 void ControllerPeer::begin_session() {
@@ -57,21 +77,89 @@ void ControllerPeer::begin_session() {
 }
 
 void ControllerPeer::answer_if_ready() {
-  const state_t& state = link_.state();
   const std::int64_t tick = link_.latest();
   if (tick <= answered_) return;
   const Kept& reference = kept(tick);
-  if (reference.tick != tick) return;
+  if (reference.tick == tick) answer(reference.message, 0);
+}
 
+void ControllerPeer::answer(const reference_t& reference, std::int32_t flags) {
+  const state_t& state = link_.state();
+  const std::int64_t tick = state.seq;
   command_t& message = command_.message;
-  side_.compute(tick, state.psi_measured, state.psid_measured, reference.message, message.tau_commanded);
+  flags |= side_.compute(state, reference, message.tau_commanded);
   if (!is_finite(message))
     throw RunFault("not_finite", "the control law gives no finite torque at tick " + std::to_string(tick));
   set_header(message, link_.answer_header(tick, state.utime));
-  message.flags = link_.report.joined_late ? command_t::FLAG_JOINED_LATE : 0;
+  message.flags = flags | (link_.report.joined_late ? command_t::FLAG_JOINED_LATE : 0);
   bus_.publish(command_channel_, command_.encode());
   answered_ = tick;
   ++link_.report.answered;
+}
+
+// When to look again though nothing is received.
+Instant ControllerPeer::next_look() const {
+  if (link_.latest() < 0 || !in_real_time()) return Instant::max();
+  if (link_.latest() > answered_) return drained_ ? asked_ + ticks(kReferenceWait) : now();
+  return silence_answered_ ? Instant::max() : asked_ + ticks(options_.max_missed);
+}
+
+void ControllerPeer::attend_to_time() {
+  if (!drained_) return;
+  const std::int64_t tick = link_.latest();
+  if (tick <= answered_) {
+    if (!silence_answered_ && now() - asked_ >= ticks(options_.max_missed)) {
+      silence_answered_ = true;
+      send_safe(0);
+    }
+    return;
+  }
+  answer_if_ready();
+  if (tick <= answered_ || now() - asked_ < ticks(kReferenceWait)) return;
+  if (const reference_t* reference = extrapolated(tick)) {
+    ++link_.report.extrapolated;
+    return answer(*reference, command_t::FLAG_EXTRAPOLATED);
+  }
+  send_safe(0);
+  answered_ = tick;
+}
+
+// psi + psi' dt + psi'' dt^2 / 2, and the like for psi' and for the end effector.
+const reference_t* ControllerPeer::extrapolated(std::int64_t tick) {
+  const Kept* newest = nullptr;
+  for (const Kept& k : ring_)
+    if (k.tick >= 0 && k.tick < tick && (newest == nullptr || k.tick > newest->tick)) newest = &k;
+  if (newest == nullptr || tick - newest->tick > options_.max_missed) return nullptr;
+  const double dt = static_cast<double>(tick - newest->tick) / options_.rate_hz;
+  const reference_t& from = newest->message;
+  const auto go_on = [dt](auto& x, auto& v, auto& a, const auto& x0, const auto& v0, const auto& a0,
+                          std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) {
+      x[i] = x0[i] + v0[i] * dt + 0.5 * a0[i] * dt * dt;
+      v[i] = v0[i] + a0[i] * dt;
+      a[i] = a0[i];
+    }
+  };
+  reference_t& to = extrapolated_;
+  set_header(to, link_.answer_header(tick, link_.state().utime));
+  go_on(to.psi_desired, to.psid_desired, to.psidd_desired, from.psi_desired, from.psid_desired,
+        from.psidd_desired, static_cast<std::size_t>(options_.n));
+  go_on(to.position_desired, to.velocity_desired, to.acceleration_desired, from.position_desired,
+        from.velocity_desired, from.acceleration_desired, 3);
+  to.phase = from.phase;
+  return &to;
+}
+
+void ControllerPeer::send_safe(std::int32_t flags) {
+  command_t& message = command_.message;
+  if (side_.safe)
+    side_.safe(message.tau_commanded);
+  else
+    std::fill(message.tau_commanded.begin(), message.tau_commanded.end(), 0.0);
+  set_header(message, link_.answer_header(link_.latest(), link_.state().utime));
+  message.flags = flags | command_t::FLAG_SAFE;
+  bus_.publish(command_channel_, command_.encode());
+  ++link_.report.safe_commands;
 }
 
 void ControllerPeer::repeat() {
@@ -83,9 +171,9 @@ void ControllerPeer::repeat() {
 // At the start the plant decides how long all wait for each other; later a planner that is silent while the
 // plant goes on asking is lost.
 void ControllerPeer::require_planner() const {
-  if (planner_differs_ && !planner_agreed_)
+  if (planner_agreement_.refuted())
     throw RunFault("config_mismatch", "the planner on " + reference_channel_ + " was started with another " +
-                                          name_difference(options_.config, planner_config_) +
+                                          name_difference(options_.config, planner_agreement_.theirs()) +
                                           " than this process");
   if (answered_ < 0 || link_.latest() <= answered_) return;
   if (now() - asked_ < options_.patience) return;
@@ -98,16 +186,11 @@ void ControllerPeer::on_reference(Bytes bytes) {
   const auto reject = [this](Reject cause) { link_.report.rejects.count(cause); };
   if (const auto cause = inbox_.read(bytes)) return reject(*cause);
   const reference_t& heard = inbox_.message;
-  if (const auto cause = link_.check_origin(heard.session, heard.config)) {
-    if (*cause == Reject::config) {
-      planner_config_ = heard.config;
-      planner_differs_ = true;
-    }
-    return reject(*cause);
-  }
-  planner_agreed_ = true;
+  const auto cause = link_.check_origin(heard.session, heard.config);
+  if (cause != Reject::session) planner_agreement_.hears(options_.config, heard.config);
+  if (cause) return reject(*cause);
   if (heard.seq < 0) return reject(Reject::tick);
-  if (heard.seq <= answered_) return reject(Reject::stale);
+  if (heard.session == link_.state().session && heard.seq <= answered_) return reject(Reject::stale);
   if (heard.seq >= std::max<std::int64_t>(link_.latest(), 0) + kAhead) return reject(Reject::tick);
   Kept& slot = kept(heard.seq);
   if (slot.tick == heard.seq && slot.message.session == heard.session) return reject(Reject::stale);

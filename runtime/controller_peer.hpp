@@ -7,16 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "runtime/config_agreement.hpp"
 #include "runtime/plant_link.hpp"
 
 namespace mixloop {
 
 /// The control law as the peer calls it.
 struct ControllerSide {
-  /// The motor torques for a tick, from its state and its own reference. Must not allocate, lock or throw.
-  std::function<void(std::int64_t tick, std::span<const double> psi, std::span<const double> psid,
-                     const reference_t& reference, std::span<double> tau)>
+  /// The motor torques for a tick, from its state and its own reference, and command_t's flags. Must not
+  /// allocate, lock or throw.
+  std::function<std::int32_t(const state_t& state, const reference_t& reference, std::span<double> tau)>
       compute;
+  /// Optional: a safe command where there is no state or reference to go by; zero torque without it.
+  std::function<void(std::span<double> tau)> safe;
   /// Optional: called with the first STATE of every session, before its compute; forgets what was. May
   /// allocate and throw.
   std::function<void(const state_t& first)> begin;
@@ -27,6 +30,10 @@ struct ControllerSide {
 /// The controller's side of the bus: answers every STATE with the COMMAND that its law gives for it and for
 /// the REFERENCE of the same tick, whichever comes first; never uses another tick's. A repeated STATE is
 /// answered by the same bytes, an older one is dropped.
+///
+/// Where the plant keeps real time, only the latest STATE is answered. A REFERENCE that isn't there after a
+/// quarter of a tick is extrapolated to second order from the last one, for at most `max_missed` ticks; after
+/// that, after as many ticks without a STATE, and on a STOP, a safe command is sent.
 ///
 /// After start-up a tick costs no allocation, lock or throw of ours.
 class ControllerPeer {
@@ -49,8 +56,15 @@ class ControllerPeer {
   };
   Kept& kept(std::int64_t tick) { return ring_[static_cast<std::size_t>(tick % kAhead)]; }
 
+  bool in_real_time() const { return (link_.state().flags & state_t::FLAG_REAL_TIME) != 0; }
+  nanoseconds ticks(double number) const;
   void begin_session();
   void answer_if_ready();
+  void answer(const reference_t& reference, std::int32_t flags);
+  Instant next_look() const;
+  void attend_to_time();
+  const reference_t* extrapolated(std::int64_t tick);
+  void send_safe(std::int32_t flags);
   void repeat();
   void require_planner() const;
   void on_reference(Bytes bytes);
@@ -65,9 +79,11 @@ class ControllerPeer {
 
   std::vector<Kept> ring_;
   std::int64_t answered_ = -1;  // the latest tick of this session that has its command
-  Instant asked_{0};            // when the state that awaits its answer came
-  bool planner_agreed_ = false, planner_differs_ = false;
-  std::int64_t planner_config_ = 0;
+  Instant asked_{0};            // when the latest state came
+  bool drained_ = true;         // real time: nothing newer waits to be read
+  bool silence_answered_ = false;
+  reference_t extrapolated_;
+  ConfigAgreement planner_agreement_;
 };
 
 }  // namespace mixloop

@@ -11,6 +11,7 @@ enum class Ending : std::uint8_t {
   finished,     ///< the experiment is over
   interrupted,  ///< SIGINT or SIGTERM (in the plant or in this process)
   stopped,      ///< somebody sent _STOP
+  reset,        ///< the operator asked for tick 0 again, in a new session
   broken_off,   ///< the plant ended by a fault; its own message says more
 };
 
@@ -22,6 +23,8 @@ constexpr std::string_view name(Ending ending) {
       return "interrupted";
     case Ending::stopped:
       return "stopped";
+    case Ending::reset:
+      return "reset";
     case Ending::broken_off:
       break;
   }

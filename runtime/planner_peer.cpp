@@ -9,7 +9,7 @@
 
 namespace mixloop {
 
-PlannerPeer::PlannerPeer(Bus& bus, const StopSwitch& stop, const PlannerOptions& options, PlannerSide side)
+PlannerPeer::PlannerPeer(Bus& bus, const StopSwitch& stop, const PeerOptions& options, PlannerSide side)
     : bus_(bus),
       options_(options),
       side_(std::move(side)),

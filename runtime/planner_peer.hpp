@@ -18,17 +18,13 @@ struct PlannerSide {
   std::function<void(const state_t& first)> begin;
 };
 
-struct PlannerOptions : PeerOptions {
-  double rate_hz = 1000;  ///< for the references' plant time
-};
-
 /// The planner's side of the bus: one tick ahead of the plant. STATE(k) is answered by REFERENCE(k + 1), and
 /// by REFERENCE(k) before it where k is 0, repeated or skipped.
 ///
 /// After start-up a tick costs no allocation, lock or throw of ours.
 class PlannerPeer {
  public:
-  PlannerPeer(Bus& bus, const StopSwitch& stop, const PlannerOptions& options, PlannerSide side);
+  PlannerPeer(Bus& bus, const StopSwitch& stop, const PeerOptions& options, PlannerSide side);
 
   /// Runs until the plant says END, somebody says STOP, or the switch is turned. Throws RunFault `lost_peer`
   /// or `config_mismatch`.
@@ -40,7 +36,7 @@ class PlannerPeer {
   void publish(std::int64_t tick);
 
   Bus& bus_;
-  PlannerOptions options_;
+  PeerOptions options_;
   PlannerSide side_;
   PlantLink link_;
   Outbox<reference_t> reference_;

@@ -5,6 +5,7 @@
 
 #include "notation/errors.hpp"
 #include "runtime/config_hash.hpp"
+#include "runtime/plant_time.hpp"
 
 namespace mixloop {
 namespace {
@@ -45,15 +46,16 @@ PlantLink::PlantLink(Bus& bus, const StopSwitch& stop, const PeerOptions& option
   bus_.subscribe<&PlantLink::on_stop>(bus_.channel("STOP"), this);
 }
 
-PlantLink::Event PlantLink::next() {
+PlantLink::Event PlantLink::next(Instant until) {
   heard_ = Event::other;
-  const Wake wake = bus_.wait(deadline_, stop_);
+  const Wake wake = bus_.wait(std::min(deadline_, until), stop_);
   report.failed_sends = bus_.failed_sends();
   if (wake == Wake::stop) {
     ending_ = Ending::interrupted;
     return Event::over;
   }
-  return wake == Wake::deadline ? silence() : judge();
+  if (wake == Wake::message) return judge();
+  return now() < deadline_ ? Event::nothing : silence();
 }
 
 PlantLink::Event PlantLink::silence() {
@@ -71,10 +73,9 @@ PlantLink::Event PlantLink::judge() {
     return Event::over;
   }
   if (end_heard_) return Event::over;
-  // Once the plant has agreed, a stranger's message can't end us.
-  if (differs_ && !agreed_)
+  if (agreement_.refuted())
     throw RunFault("config_mismatch", "the plant on " + state_channel_ + " was started with another " +
-                                          name_difference(options_.config, their_config_) +
+                                          name_difference(options_.config, agreement_.theirs()) +
                                           " than this process");
   return heard_;
 }
@@ -96,14 +97,10 @@ void PlantLink::on_state(Bytes bytes) {
   const state_t& heard = inbox_.message;
   const Instant at = now();
   if (!session_.would_follow(heard.session, at)) return reject(Reject::session);
-  if (heard.config != options_.config) {
-    their_config_ = heard.config;
-    differs_ = true;
-    return reject(Reject::config);
-  }
-  if (heard.seq < 0 || (heard.seq > options_.last_tick && !holds(heard))) return reject(Reject::tick);
+  if (!agreement_.hears(options_.config, heard.config)) return reject(Reject::config);
+  if (heard.seq < 0 || heard.seq > kFarthestTick || (heard.seq > options_.last_tick && !holds(heard)))
+    return reject(Reject::tick);
 
-  agreed_ = true;
   deadline_ = at + options_.patience;
   const bool first = session_.follow(heard.session, at);
   if (!first && heard.seq < latest()) return reject(Reject::stale);
@@ -124,6 +121,9 @@ void PlantLink::on_control(Bytes bytes) {
   if (const auto cause = control_inbox_.read(bytes)) return reject(*cause);
   const sim_control_t& control = control_inbox_.message;
   if (const auto cause = check_origin(control.session, control.config)) return reject(*cause);
+  // The plant's own RESET says which session comes next; an operator's is for the plant alone.
+  if (control.action == sim_control_t::ACTION_RESET && control.seq != 0)
+    return session_.go_over_to(control.seq);
   if (control.action != sim_control_t::ACTION_END) return;
   end_heard_ = true;
   ending_ = ending_of(control.reason);

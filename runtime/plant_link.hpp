@@ -7,6 +7,7 @@
 
 #include "runtime/bus.hpp"
 #include "runtime/clock.hpp"
+#include "runtime/config_agreement.hpp"
 #include "runtime/ending.hpp"
 #include "runtime/session.hpp"
 #include "runtime/stop_switch.hpp"
@@ -19,19 +20,23 @@ struct PeerOptions {
   int n = 0;                 ///< motors
   std::int64_t session = 0;  ///< 0: take the one that is heard
   std::int64_t config = 0;   ///< see config_hash.hpp
+  double rate_hz = 1000;     ///< ticks a second of plant time
   /// Later ticks are rejected, but for a plant that holds; and a plant may fall silent after it.
   std::int64_t last_tick = std::numeric_limits<std::int64_t>::max();
   nanoseconds first_wait = std::chrono::seconds(60);  ///< for the first STATE
   nanoseconds patience = std::chrono::seconds(10);    ///< for any later one
+  int max_missed = 20;  ///< real time: so many ticks a reference is extrapolated, a silent plant waited for
 };
 
 /// What a controller or planner can tell afterwards.
 struct PeerReport {
-  std::int64_t session = 0;    ///< 0: none was heard
-  std::uint64_t answered = 0;  ///< ticks answered for the first time
-  std::uint64_t repeated = 0;  ///< answers sent again
-  std::int64_t latest = -1;    ///< the latest tick heard
-  bool joined_late = false;    ///< first heard its session at a tick past 0
+  std::int64_t session = 0;         ///< 0: none was heard
+  std::uint64_t answered = 0;       ///< ticks answered for the first time
+  std::uint64_t repeated = 0;       ///< answers sent again
+  std::uint64_t extrapolated = 0;   ///< real time: references
+  std::uint64_t safe_commands = 0;  ///< real time: sent in place of the law's
+  std::int64_t latest = -1;         ///< the latest tick heard
+  bool joined_late = false;         ///< first heard its session at a tick past 0
   std::uint64_t failed_sends = 0;
   Rejects rejects;
 };
@@ -45,13 +50,14 @@ class PlantLink {
   enum class Event : std::uint8_t {
     fresh,     ///< state() is of a tick not heard before
     repeated,  ///< the plant sent the latest state again: it has no answer
-    other,     ///< something else was received, or nothing
+    other,     ///< something else was received
+    nothing,   ///< nothing was, until the time given
     over,      ///< leave, see ending()
   };
 
-  /// Waits for one message. Throws RunFault `lost_peer` where the plant is silent for too long and
-  /// `config_mismatch` where it was started with something else.
-  Event next();
+  /// Waits for one message, until a time. Throws RunFault `lost_peer` where the plant is silent for too long
+  /// and `config_mismatch` where it was started with something else.
+  Event next(Instant until = Instant::max());
 
   const state_t& state() const { return state_; }
   std::int64_t latest() const { return report.latest; }        ///< tick of state(), -1 before any
@@ -84,8 +90,7 @@ class PlantLink {
   Instant deadline_;
   Event heard_ = Event::other;
   bool first_of_session_ = false;
-  bool agreed_ = false, differs_ = false;
-  std::int64_t their_config_ = 0;
+  ConfigAgreement agreement_;
   bool end_heard_ = false, stop_heard_ = false;
   Ending ending_ = Ending::finished;
 };

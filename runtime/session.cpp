@@ -19,6 +19,12 @@ bool SessionFollower::would_follow(std::int64_t session, Instant at) const {
   return !last_heard_ || at - *last_heard_ > quiet_;
 }
 
+void SessionFollower::go_over_to(std::int64_t session) {
+  current_ = session;
+  if (given_ != 0) given_ = session;
+  last_heard_.reset();
+}
+
 bool SessionFollower::follow(std::int64_t session, Instant at) {
   const bool first = !last_heard_ || session != current_;
   current_ = session;

@@ -25,6 +25,9 @@ class SessionFollower {
   /// Takes it. True: it is the first of its session, and all that is remembered of ticks must be cleared.
   bool follow(std::int64_t session, Instant at);
 
+  /// The plant itself says that another session comes next.
+  void go_over_to(std::int64_t session);
+
   std::int64_t current() const { return current_; }  ///< 0 before any
   bool heard() const { return last_heard_.has_value(); }
 

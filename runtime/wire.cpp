@@ -141,6 +141,18 @@ stop_t blank(int n) {
   m.n = n;
   return m;
 }
+template <>
+fault_t blank(int n) {
+  fault_t m{};
+  m.n = n;
+  return m;
+}
+template <>
+timing_t blank(int n) {
+  timing_t m{};
+  m.n = n;
+  return m;
+}
 
 bool is_finite(const state_t& m) { return all_finite(m.psi_measured, m.psid_measured); }
 bool is_finite(const reference_t& m) {
@@ -153,6 +165,11 @@ bool is_finite(const truth_t& m) {
   return all_finite(m.psi, m.psid, m.psidd, m.tau_applied, m.position, m.velocity, m.acceleration, scalars);
 }
 bool is_finite(const sim_control_t& m) { return std::isfinite(m.speed); }
+bool is_finite(const stop_t&) { return true; }
+bool is_finite(const fault_t& m) { return std::isfinite(m.magnitude) && std::isfinite(m.duration); }
+bool is_finite(const timing_t& m) {
+  return std::isfinite(m.success_last_100) && std::isfinite(m.relative_error);
+}
 
 template <class Message>
 std::optional<Reject> Inbox<Message>::read(Bytes bytes) {
@@ -173,5 +190,8 @@ template class Inbox<reference_t>;
 template class Inbox<command_t>;
 template class Inbox<truth_t>;
 template class Inbox<sim_control_t>;
+template class Inbox<stop_t>;
+template class Inbox<fault_t>;
+template class Inbox<timing_t>;
 
 }  // namespace mixloop

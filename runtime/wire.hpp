@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "mixloop/command_t.hpp"
+#include "mixloop/fault_t.hpp"
 #include "mixloop/reference_t.hpp"
 #include "mixloop/sim_control_t.hpp"
 #include "mixloop/state_t.hpp"
 #include "mixloop/stop_t.hpp"
+#include "mixloop/timing_t.hpp"
 #include "mixloop/truth_t.hpp"
 
 namespace mixloop {
@@ -80,6 +82,10 @@ template <>
 sim_control_t blank(int n);
 template <>
 stop_t blank(int n);
+template <>
+fault_t blank(int n);
+template <>
+timing_t blank(int n);
 
 /// Whether every number in the message is finite.
 bool is_finite(const state_t& message);
@@ -87,6 +93,9 @@ bool is_finite(const reference_t& message);
 bool is_finite(const command_t& message);
 bool is_finite(const truth_t& message);
 bool is_finite(const sim_control_t& message);
+bool is_finite(const stop_t& message);
+bool is_finite(const fault_t& message);
+bool is_finite(const timing_t& message);
 
 /// Encodes a kept message into a kept buffer; neither allocates after construction.
 template <class Message>
@@ -134,5 +143,8 @@ extern template class Inbox<reference_t>;
 extern template class Inbox<command_t>;
 extern template class Inbox<truth_t>;
 extern template class Inbox<sim_control_t>;
+extern template class Inbox<stop_t>;
+extern template class Inbox<fault_t>;
+extern template class Inbox<timing_t>;
 
 }  // namespace mixloop

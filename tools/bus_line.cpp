@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/bus_line.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 
 namespace mixloop {
@@ -39,7 +41,22 @@ void add_peer_options(CLI::App& command, PeerLine& line) {
   command.add_option("--first-wait", line.first_wait, "seconds to wait for the others at the start, 60")
       ->type_name("S")
       ->check(CLI::Range(0.05, 86400.0));
+  command.add_flag(
+      "--realtime", line.real_time,
+      "keep real time: locked memory, real-time priority, no deep idle states, where they are allowed");
+  command.add_option("--priority", line.wishes.priority, "SCHED_FIFO priority in real time, 80; 0: none")
+      ->type_name("P")
+      ->check(CLI::Range(0, 98));
+  command.add_option("--cpu", line.wishes.cpu, "in real time, the core to stay on")
+      ->type_name("CORE")
+      ->check(CLI::Range(0, 1023));
   add_evaluation_option(command, line.evaluation);
+}
+
+void PeerLine::take_rights(const char* program, bool say) const {
+  if (!real_time) return;
+  for (const auto& lost : take_real_time_rights(wishes))
+    if (say) fmt::print(stderr, "{}: {}\n", program, lost);
 }
 
 std::int64_t config_of(const Experiment& experiment) {

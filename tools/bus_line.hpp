@@ -3,6 +3,7 @@
 
 #include "runtime/bus.hpp"
 #include "runtime/config_hash.hpp"
+#include "runtime/real_time_rights.hpp"
 #include "tools/command_line.hpp"
 
 namespace mixloop {
@@ -17,12 +18,17 @@ struct PeerLine : CommonOptions {
   std::int64_t session = 0;
   double patience = 10;    ///< s
   double first_wait = 60;  ///< s
+  bool real_time = false;
+  RealTimeWishes wishes;
   Evaluation evaluation = Evaluation::machine_code;
 
   nanoseconds patience_ns() const { return nanoseconds(static_cast<std::int64_t>(patience * 1e9)); }
   nanoseconds first_wait_ns() const { return nanoseconds(static_cast<std::int64_t>(first_wait * 1e9)); }
   /// The experiment as this line overrides it.
   Experiment load() const;
+  /// In real time: takes what rights there are, and says on stderr what is lost, unless `mixloop run`
+  /// launched this process (its plant says it).
+  void take_rights(const char* program, bool say) const;
 };
 void add_peer_options(CLI::App& command, PeerLine& line);
 

@@ -16,7 +16,9 @@ struct Launch {
   std::string experiment;         ///< the file
   std::vector<std::string> sets;  ///< as given on the command line
   BusOptions bus;
-  std::string speed = "max";
+  std::string speed;  ///< empty: max in lockstep, 1 in real time
+  bool real_time = false;
+  bool paused = false;
   std::string out;                   ///< empty: keep nothing
   std::vector<std::string> without;  ///< processes that a stranger provides
   std::vector<std::string> order = {"planner", "controller", "plant"};

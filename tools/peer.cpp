@@ -11,9 +11,11 @@ PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std
   return {.n = experiment.scene->n(),
           .session = line.session,
           .config = config_of(experiment),
+          .rate_hz = experiment.rate_hz,
           .last_tick = last_tick,
           .first_wait = line.first_wait_ns(),
-          .patience = line.patience_ns()};
+          .patience = line.patience_ns(),
+          .max_missed = experiment.deadline.max_missed};
 }
 
 int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop) {

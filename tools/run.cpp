@@ -6,6 +6,7 @@
 
 #include "loop/keep.hpp"
 #include "loop/result.hpp"
+#include "runtime/real_time_plant.hpp"
 #include "tools/bus_line.hpp"
 #include "tools/commands.hpp"
 #include "tools/launched.hpp"
@@ -21,6 +22,15 @@ struct Options : CommonOptions {
 
 void print_bus(const nlohmann::json& result) {
   if (!result.contains("round_trip_p50")) return;
+  if (result.contains("overruns"))
+    fmt::print(
+        "  commands         {} missed ({} in a row at most), {:.0f} % of the last 100 in time\n"
+        "  wake-up          p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; plant time slipped {} times, by "
+        "{:.6f} s\n",
+        result["missed_deadlines"].get<std::int64_t>(), result["longest_miss"].get<std::int64_t>(),
+        result["success_last_100"].get<double>() * 100, result.value("wake_up_p50", 0.0) * 1e6,
+        result.value("wake_up_p99", 0.0) * 1e6, result.value("wake_up_max", 0.0) * 1e6,
+        result["overruns"].get<std::int64_t>(), result["slipped"].get<double>());
   fmt::print("  round trip       p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; {} states sent again\n",
              result["round_trip_p50"].get<double>() * 1e6, result["round_trip_p99"].get<double>() * 1e6,
              result["round_trip_max"].get<double>() * 1e6, result["resent"].get<std::int64_t>());
@@ -32,7 +42,10 @@ int run(Options& options) {
   Launch& launch = options.launch;
   launch.sets = options.sets;
   launch.quiet = options.json;
-  speed_of(launch.speed);
+  if (!launch.speed.empty()) {
+    const double speed = speed_of(launch.speed);
+    if (launch.real_time) require_real_time_speed(speed);
+  }
   Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
   experiment.evaluation = launch.evaluation;
   const auto print = [&](const nlohmann::json& result) {
@@ -75,11 +88,17 @@ void add_run_command(CLI::App& app, int& status) {
       ->type_name("EXPERIMENT");
   add_common_options(*command, *options);
   add_bus_options(*command, launch.bus);
-  command->add_flag("--lockstep", options->lockstep, "plant time waits for every command (the default)");
+  auto* lockstep =
+      command->add_flag("--lockstep", options->lockstep, "plant time waits for every command (the default)");
+  command
+      ->add_flag("--realtime", launch.real_time,
+                 "plant time keeps pace with the clock: a command acts when it arrives, and has a deadline")
+      ->excludes(lockstep);
   command
       ->add_option("--speed", launch.speed,
-                   "plant seconds a real second, or max (the default): as fast as it goes")
+                   "plant seconds a real second, or max: as fast as it goes. In lockstep max, in real time 1")
       ->type_name("X");
+  command->add_flag("--paused", launch.paused, "begin paused, at tick 0; mixloop control goes on from there");
   command->add_flag("--hold", launch.hold, "go on holding the end point until Ctrl-C");
   command->add_flag("--truth", launch.truth, "publish TRUTH, which no controller may read");
   command->add_option("--without", launch.without, "do not launch this one: a stranger's is used")
@@ -100,6 +119,7 @@ void add_run_command(CLI::App& app, int& status) {
       "Examples:\n"
       "  tools/in-namespace build/release/bin/mixloop run experiments/paper.yaml --speed 1 --out "
       "results/paper\n"
+      "  tools/in-namespace build/release/bin/mixloop run experiments/paper.yaml --realtime\n"
       "  mixloop run experiments/paper.yaml --without controller     # waits for yours");
   command->callback([options, &status] { status = run(*options); });
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "loop/arrivals.hpp"
 #include "loop/keep.hpp"
 #include "loop/result.hpp"
 #include "runtime/clock.hpp"
@@ -15,7 +16,12 @@
 
 namespace mixloop {
 
-nlohmann::json simulated(const Experiment& loaded, const std::string& out, const StopSwitch& stop, bool quiet) {
+nlohmann::json simulated(const Experiment& loaded, const std::string& out, const StopSwitch& stop, bool quiet,
+                         const std::string& ages) {
+  if (loaded.plant.continuous && !ages.empty())
+    throw InputError("out_of_range", {"--ages"},
+                     "plant.control is 'continuous', which no run in real time has; expected 'held'");
+  const auto arrivals = ages.empty() ? std::vector<Arrival>() : read_arrivals(ages);
   const Plan plan = make_plan(loaded);
   const Experiment experiment = with_integrator_settled(loaded, plan);
   const nlohmann::json warnings = warnings_of(experiment, plan, quiet);
@@ -23,10 +29,14 @@ nlohmann::json simulated(const Experiment& loaded, const std::string& out, const
   Recorder recorder(experiment, plan);
   Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);
   const Instant start = now();
-  simulate(experiment, plan, recorder, [&](std::int64_t k) {
+  const auto go_on = [&](std::int64_t k) {
     progress.at(k);
     return !stop.turned();
-  });
+  };
+  if (ages.empty())
+    simulate(experiment, plan, recorder, go_on);
+  else
+    simulate_arrivals(experiment, plan, arrivals, recorder, go_on);
   const double wall_time = std::chrono::duration<double>(now() - start).count();
   auto result = result_json(experiment, recorder.measures(), "simulate", wall_time);
   result["warnings"] = warnings;
@@ -39,6 +49,7 @@ namespace {
 struct Options : CommonOptions {
   std::string experiment;
   std::string out;
+  std::string ages;
   Evaluation evaluation = Evaluation::machine_code;
 };
 
@@ -47,7 +58,7 @@ int run(const Options& options) {
   stop.turn_on_signals();
   Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
   experiment.evaluation = options.evaluation;
-  const auto result = simulated(experiment, options.out, stop, options.json);
+  const auto result = simulated(experiment, options.out, stop, options.json, options.ages);
   if (options.json)
     print_json(result);
   else
@@ -67,6 +78,12 @@ void add_simulate_command(CLI::App& app, int& status) {
   add_common_options(*command, *options);
   command->add_option("--out", options->out, "keep result.json and trajectory.csv in this folder")
       ->type_name("DIR");
+  command
+      ->add_option(
+          "--ages", options->ages,
+          "the ages.csv that a run in real time kept: its commands arrive as they did then, for the same "
+          "trajectory, bit by bit")
+      ->type_name("LOG");
   add_evaluation_option(*command, options->evaluation);
   command->footer(
       "Examples:\n"

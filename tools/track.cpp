@@ -30,6 +30,7 @@ int exit_status(const nlohmann::json& result) {
   return verdict == "held"       ? kHeld
          : verdict == "missed"   ? kMissed
          : verdict == "diverged" ? kRunFault
+         : verdict == "safe_state" ? kRunFault
                                  : kInterrupted;
 }
 

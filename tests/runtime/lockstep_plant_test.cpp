@@ -17,20 +17,22 @@ using testing::StartsWith;
 
 class Plant : public testing::Test {
  protected:
-  static LockstepOptions options(std::int64_t last_tick) {
+  static PlantOptions options(std::int64_t last_tick) {
     return {.n = kScriptN, .last_tick = last_tick, .session = kScriptSession, .config = kScriptConfig};
   }
-  void start(const LockstepOptions& o) { plant_.emplace(o, side()); }
+  void start(const PlantOptions& o) { plant_.emplace(o, side()); }
 
   PlantSide side() {
-    return {.measure = [](std::int64_t tick, std::span<double> psi,
-                          std::span<double>) { psi[0] = static_cast<double>(tick); },
-            .advance =
-                [this](std::int64_t tick, std::span<const double> tau) {
-                  applied_.push_back(tau[0]);
-                  return tick != breaks_at_;
-                },
-            .truth = [](std::int64_t tick, truth_t& t) { t.work = static_cast<double>(tick); }};
+    PlantSide side;
+    side.measure = [](std::int64_t tick, std::span<double> psi, std::span<double>) {
+      psi[0] = static_cast<double>(tick);
+    };
+    side.advance = [this](std::int64_t tick, std::span<const double> tau) {
+      applied_.push_back(tau[0]);
+      return tick != breaks_at_;
+    };
+    side.truth = [](std::int64_t tick, truth_t& t) { t.work = static_cast<double>(tick); };
+    return side;
   }
   command_t command(std::int64_t tick, double tau = 0) {
     auto c = ScriptedPeer::message<command_t>(tick);
@@ -134,7 +136,7 @@ TEST_F(Plant, refuses_a_controller_that_was_started_with_something_else_by_name)
   expect_state(0);
   auto c = command(0);
   c.config ^= 1LL << 32;
-  script_.send("COMMAND", c);
+  for (int i = 0; i < 3; ++i) script_.send("COMMAND", c);
   const std::string fault = plant_->fault();
   EXPECT_THAT(fault, StartsWith("config_mismatch: "));
   EXPECT_THAT(fault, HasSubstr("MIXLOOP_COMMAND was started with another mechanism"));
@@ -142,7 +144,7 @@ TEST_F(Plant, refuses_a_controller_that_was_started_with_something_else_by_name)
 }
 
 TEST_F(Plant, publishes_the_truth_of_every_tick_when_asked) {
-  LockstepOptions o = options(1);
+  PlantOptions o = options(1);
   o.truth = true;
   start(o);
   expect_state(0);
@@ -172,7 +174,7 @@ TEST_F(Plant, publishes_nothing_of_the_tick_that_diverges) {
 }
 
 TEST_F(Plant, names_the_channel_that_it_waited_for_in_vain) {
-  LockstepOptions o = options(1);
+  PlantOptions o = options(1);
   o.patience = 100ms;
   start(o);
   expect_state(0);
@@ -184,7 +186,7 @@ TEST_F(Plant, names_the_channel_that_it_waited_for_in_vain) {
 }
 
 TEST_F(Plant, says_that_the_controller_is_missing_where_the_planner_answers) {
-  LockstepOptions o = options(1);
+  PlantOptions o = options(1);
   o.first_wait = 1200ms;
   start(o);
   while (plant_->running()) {
@@ -211,7 +213,7 @@ TEST_F(Plant, ends_all_when_interrupted) {
 }
 
 TEST_F(Plant, that_holds_goes_on_past_the_last_tick_and_has_finished_when_stopped) {
-  LockstepOptions o = options(0);
+  PlantOptions o = options(0);
   o.hold = true;
   start(o);
   for (std::int64_t k = 0; k < 3; ++k) {
@@ -225,7 +227,7 @@ TEST_F(Plant, that_holds_goes_on_past_the_last_tick_and_has_finished_when_stoppe
 }
 
 TEST_F(Plant, keeps_to_the_pace_that_it_is_given) {
-  LockstepOptions o = options(20);
+  PlantOptions o = options(20);
   o.speed = 1;
   plant_.emplace(o, side());
   Instant first{0}, last{0};

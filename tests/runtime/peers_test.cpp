@@ -20,9 +20,10 @@ constexpr PeerOptions kOptions{.n = kScriptN, .config = kScriptConfig, .last_tic
 // tau = (psi_desired, tick, 0): shows which reference and which state it was made of.
 ControllerSide telling_law() {
   ControllerSide side;
-  side.compute = [](std::int64_t tick, auto, auto, const reference_t& r, std::span<double> tau) {
+  side.compute = [](const state_t& state, const reference_t& r, std::span<double> tau) {
     tau[0] = r.psi_desired[0];
-    tau[1] = static_cast<double>(tick);
+    tau[1] = static_cast<double>(state.seq);
+    return 0;
   };
   return side;
 }
@@ -196,10 +197,35 @@ TEST_F(Controller, refuses_a_plant_that_was_started_with_something_else_by_name)
   start();
   auto state = ScriptedPeer::message<state_t>(0);
   state.config ^= 1LL << 16;
-  script_.send("STATE", state);
+  for (int i = 0; i < 3; ++i) script_.send("STATE", state);
   const std::string fault = peer_->fault();
   EXPECT_THAT(fault, StartsWith("config_mismatch: "));
   EXPECT_THAT(fault, HasSubstr("another path"));
+}
+
+TEST_F(Controller, is_not_ended_by_single_damaged_messages_before_a_good_one) {
+  start();
+  for (int i = 0; i < 20; ++i) {
+    auto state = ScriptedPeer::message<state_t>(0);
+    state.config ^= 1LL << (i / 2);
+    script_.send("STATE", state);
+  }
+  script_.send_state(0);
+  script_.send_reference(0, 10);
+  expect_command(0, 10);
+  EXPECT_EQ(report().rejects.config, 20U);
+}
+
+TEST_F(Controller, does_not_believe_in_ticks_that_no_plant_reaches) {
+  start();
+  auto state = ScriptedPeer::message<state_t>(0);
+  state.seq = std::numeric_limits<std::int64_t>::max();
+  state.flags = state_t::FLAG_HOLD;
+  script_.send("STATE", state);
+  script_.send_state(0);
+  script_.send_reference(0, 10);
+  expect_command(0, 10);
+  EXPECT_EQ(report().rejects.tick, 1U);
 }
 
 TEST_F(Controller, refuses_a_planner_that_was_started_with_something_else_by_name) {
@@ -208,14 +234,15 @@ TEST_F(Controller, refuses_a_planner_that_was_started_with_something_else_by_nam
   start(options);
   auto reference = ScriptedPeer::message<reference_t>(0);
   reference.config ^= 1LL << 48;
-  script_.send("REFERENCE", reference);
+  for (int i = 0; i < 3; ++i) script_.send("REFERENCE", reference);
   EXPECT_THAT(peer_->fault(), HasSubstr("another rate"));
 }
 
 TEST_F(Controller, never_sends_a_torque_that_is_no_number) {
   ControllerSide side;
-  side.compute = [](std::int64_t, auto, auto, const reference_t&, std::span<double> tau) {
+  side.compute = [](const state_t&, const reference_t&, std::span<double> tau) {
     tau[2] = std::nan("");
+    return 0;
   };
   start(kOptions, side);
   script_.send_state(0);
@@ -309,7 +336,7 @@ class Planner : public testing::Test {
   void start() {
     PlannerSide side;
     side.refer = [](std::int64_t tick, reference_t& r) { r.psi_desired[0] = static_cast<double>(tick); };
-    peer_.emplace(PlannerOptions{kOptions, 1000}, side);
+    peer_.emplace(kOptions, side);
   }
   void expect_references(std::initializer_list<std::int64_t> ticks) {
     for (const std::int64_t tick : ticks) {

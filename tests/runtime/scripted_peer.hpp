@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "notation/errors.hpp"
 #include "runtime/bus.hpp"
 
 namespace mixloop {

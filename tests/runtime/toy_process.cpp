@@ -69,7 +69,7 @@ int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {
       {.n = toy::kN, .last_tick = last_tick, .speed = speed, .session = session, .config = toy::kConfig},
       side);
   const Ending ending = plant.run();
-  const LockstepReport& r = plant.report();
+  const PlantReport& r = plant.report();
   std::printf(R"({"ending": "%s", "digest": "%s", "ticks_done": %ld, "resent": %lu, "joined_late": %lu)",
               name(ending).data(), toy::digest(commands).c_str(), r.ticks_done, r.resent, r.joined_late);
   print_rejects(r.rejects, steady);
@@ -92,9 +92,10 @@ int run_controller(const PeerOptions& options) {
   stop.turn_on_signals();
   SteadyState steady(options.last_tick);
   ControllerSide side;
-  side.compute = [&](std::int64_t tick, auto psi, auto psid, const reference_t& r, std::span<double> tau) {
-    steady.at(tick);
-    toy::compute(psi, psid, r, tau);
+  side.compute = [&](const state_t& state, const reference_t& r, std::span<double> tau) {
+    steady.at(state.seq);
+    toy::compute(state.psi_measured, state.psid_measured, r, tau);
+    return 0;
   };
   ControllerPeer peer(bus, stop, options, side);
   return run_peer(peer, stop, steady);
@@ -110,7 +111,7 @@ int run_planner(const PeerOptions& options) {
     steady.at(tick);
     toy::refer(tick, r);
   };
-  PlannerPeer peer(bus, stop, {options, 1000}, side);
+  PlannerPeer peer(bus, stop, options, side);
   return run_peer(peer, stop, steady);
 }
 

@@ -43,7 +43,7 @@ class Command {
   std::vector<int> children() const;
 
   /// The exit status, 128 + the signal that ended it, or -1 (then it is killed) after the limit.
-  int wait(std::chrono::milliseconds limit = std::chrono::seconds(60));
+  int wait(std::chrono::milliseconds limit = std::chrono::seconds(200));
   std::string out() const;
   std::string err() const;
   nlohmann::json json() const { return nlohmann::json::parse(out()); }

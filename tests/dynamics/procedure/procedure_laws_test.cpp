@@ -208,7 +208,7 @@ TEST(RandomMechanisms, EndEffectorDerivativesAreThoseOfItsPosition) {
         EXPECT_LT(distance(end.acceleration, (ahead.velocity - behind.velocity) / (2 * step)), 1e-12);
         for (int i = 0; i < mechanism.n(); ++i) {
           const WideVector e = step * WideVector::Unit(mechanism.n(), i);
-          const auto column = (evaluation.end(s.psi + e, s.psid, s.input, s.t).position -
+          const WideVector column = (evaluation.end(s.psi + e, s.psid, s.input, s.t).position -
                                evaluation.end(s.psi - e, s.psid, s.input, s.t).position) /
                               (2 * step);
           EXPECT_LT(distance(end.jacobian.col(i), column), 1e-15);

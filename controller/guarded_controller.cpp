@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "controller/guarded_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mixloop {
+namespace {
+
+constexpr double kStartTolerance = 0.02;  // rad or m: far above what a sensor errs, far below what throws
+
+}  // namespace
+
+GuardedController::GuardedController(Controller controller, SafetySettings settings, Vector damping)
+    : controller_(std::move(controller)),
+      settings_(std::move(settings)),
+      damping_(std::move(damping)),
+      trusted_psid_(Vector::Zero(damping_.size())),
+      before_(trusted_psid_) {}
+
+void GuardedController::begin() {
+  trusted_psid_.setZero();
+  when_.reset();
+  out_of_range_.reset();
+  stale_ = 0;
+}
+
+std::string GuardedController::start_refusal(std::span<const double> psi, const Reference& start) const {
+  for (std::size_t i = 0; i < psi.size(); ++i) {
+    const double tolerance =
+        settings_.start_tolerance.empty() ? kStartTolerance : settings_.start_tolerance[i];
+    const double should = start.psi[static_cast<Eigen::Index>(i)];
+    if (std::abs(psi[i] - should) <= tolerance) continue;
+    return "motor " + std::to_string(i + 1) + " stands at " + std::to_string(psi[i]) +
+           ", the path starts at " + std::to_string(should) +
+           ", farther than controller.safety.start_tolerance (" + std::to_string(tolerance) +
+           "): say where it stands by plant.initial, and path.approach to move there";
+  }
+  return "";
+}
+
+CommandMarks GuardedController::torque(std::span<const double> psi, std::span<const double> psid, bool stale,
+                                       const Reference& reference, double t, std::span<double> tau) {
+  stale_ = stale ? stale_ + 1 : 0;
+  if (out_of_range_ || !in_range(psi, psid)) return safe_torque(tau);
+  if (stale_ > settings_.max_stale) return safe_torque(tau);
+  if (!stale) trusted_psid_ = map_of(psid);
+  controller_.torque(psi, psid, reference, t, tau);
+  return {.limited = limit(t, tau)};
+}
+
+CommandMarks GuardedController::safe_torque(std::span<double> tau) {
+  Eigen::Map<Vector> out(tau.data(), static_cast<Eigen::Index>(tau.size()));
+  if (settings_.safe_command == SafeCommand::damp)
+    out = -damping_.cwiseProduct(trusted_psid_);
+  else
+    out.setZero();
+  when_.reset();  // the law starts anew, without a rate limit, once it is trusted again
+  return {.safe = true};
+}
+
+bool GuardedController::in_range(std::span<const double> psi, std::span<const double> psid) {
+  for (std::size_t i = 0; i < psi.size(); ++i) {
+    const bool fast = !settings_.velocity_limit.empty() && std::abs(psid[i]) > settings_.velocity_limit[i];
+    const bool out = !settings_.position_range.empty() &&
+                     (psi[i] < settings_.position_range[i][0] || psi[i] > settings_.position_range[i][1]);
+    if (!fast && !out) continue;
+    out_of_range_ = static_cast<int>(i) + 1;
+    return false;
+  }
+  return true;
+}
+
+/// Torque after rate: the torque limit holds whatever came before.
+bool GuardedController::limit(double t, std::span<double> tau) {
+  bool limited = false;
+  const auto clamp = [&limited](double& value, double least, double most) {
+    const double within = std::clamp(value, least, most);
+    limited = limited || within != value;
+    value = within;
+  };
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    double& before = before_[static_cast<Eigen::Index>(i)];
+    if (!settings_.torque_rate_limit.empty() && when_) {
+      const double step = settings_.torque_rate_limit[i] * (t - *when_);
+      clamp(tau[i], before - step, before + step);
+    }
+    if (!settings_.torque_limit.empty()) clamp(tau[i], -settings_.torque_limit[i], settings_.torque_limit[i]);
+    before = tau[i];
+  }
+  when_ = t;
+  return limited;
+}
+
+}  // namespace mixloop

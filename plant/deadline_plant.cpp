@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "plant/deadline_plant.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mixloop {
+
+DeadlinePlant::DeadlinePlant(Plant plant, const PlantSettings& settings, DeadlineSettings deadline,
+                             double rate_hz, std::int64_t ticks)
+    : plant_(std::move(plant)),
+      deadline_(std::move(deadline)),
+      tick_length_(1.0 / rate_hz),
+      delay_(settings.command_delay),
+      n_(plant_.psi().size()),
+      commanded_(Vector::Zero(static_cast<Eigen::Index>(n_))),
+      stand_(commanded_),
+      last_hundred_(100, true) {
+  // Commands are each of another tick: no more of them wait than ticks go into the delay.
+  effects_.assign(static_cast<std::size_t>(std::ceil(delay_ * rate_hz)) + 4, Effect{.tau = commanded_});
+  arrivals_.reserve(static_cast<std::size_t>(ticks) + 2);
+}
+
+void DeadlinePlant::command(std::int64_t tick, std::int64_t offset, std::span<const double> tau) {
+  if (tick <= newest_) return;
+  newest_ = tick;
+  if (arrivals_.size() < arrivals_.capacity())
+    arrivals_.push_back({.tick = plant_.tick(), .offset = offset, .command = tick});
+  const double at = tick == 0 ? 0 : std::max(1e-9 * static_cast<double>(offset), 0.0) + delay_;
+  const double ticks_later = std::floor(at / tick_length_ * (1 + 1e-12));
+  queue(plant_.tick() + static_cast<std::int64_t>(ticks_later), at - ticks_later * tick_length_, tau);
+}
+
+void DeadlinePlant::queue(std::int64_t tick, double offset, std::span<const double> tau) {
+  Effect& effect = effects_[(first_ + waiting_) % effects_.size()];
+  if (waiting_ < effects_.size()) ++waiting_;
+  effect.tick = tick;
+  effect.offset = std::max(offset, 0.0);
+  effect.tau = map_of(tau);
+}
+
+void DeadlinePlant::finish_tick() {
+  const std::int64_t k = plant_.tick();
+  if (safe_) take_safe_torque();
+  for (; waiting_ > 0 && effects_[first_].tick <= k; first_ = (first_ + 1) % effects_.size(), --waiting_) {
+    if (safe_) continue;
+    commanded_ = effects_[first_].tau;
+    plant_.take_effect(effects_[first_].offset, span_of(std::as_const(commanded_)));
+  }
+  plant_.finish_tick();
+  if (!safe_) count(newest_ >= k);
+}
+
+void DeadlinePlant::count(bool in_time) {
+  last_hundred_[static_cast<std::size_t>(counted_++) % last_hundred_.size()] = in_time;
+  if (in_time) {
+    run_of_misses_ = 0;
+    return;
+  }
+  ++missed_;
+  longest_miss_ = std::max(longest_miss_, ++run_of_misses_);
+  if (run_of_misses_ > deadline_.max_missed) make_safe("commands missed");
+}
+
+double DeadlinePlant::success_last_100() const {
+  const auto known = std::min<std::int64_t>(counted_, static_cast<std::int64_t>(last_hundred_.size()));
+  if (known == 0) return 1;
+  return static_cast<double>(std::count(last_hundred_.begin(), last_hundred_.begin() + known, true)) /
+         static_cast<double>(known);
+}
+
+void DeadlinePlant::make_safe(const char* cause) {
+  if (safe_) return;
+  safe_ = Safe{.tick = plant_.tick(), .cause = cause};
+  stand_ = map_of(plant_.psi());
+  if (deadline_.safe_state == SafeState::brake) plant_.lock();
+}
+
+void DeadlinePlant::take_safe_torque() {
+  commanded_.setZero();
+  const bool hold = deadline_.safe_state == SafeState::hold;
+  if (hold) commanded_ = deadline_.kp.cwiseProduct(stand_ - map_of(plant_.psi()));
+  if (hold || deadline_.safe_state == SafeState::damp)
+    commanded_ -= deadline_.kv.cwiseProduct(map_of(plant_.psid()));
+  plant_.take_effect(0, span_of(std::as_const(commanded_)));
+}
+
+}  // namespace mixloop

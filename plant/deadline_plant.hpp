@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "plant/deadline_settings.hpp"
+#include "plant/plant.hpp"
+
+namespace mixloop {
+
+/// When a command arrived: the only thing in which a run in real time differs from another one.
+struct Arrival {
+  std::int64_t tick = 0;     ///< in which it arrived
+  std::int64_t offset = 0;   ///< ns of plant time after the tick's start
+  std::int64_t command = 0;  ///< the tick that it answers
+};
+
+/// The plant under commands with a deadline: each acts when it arrives (`command_delay` later, where there is
+/// one), one that misses its tick is counted, too many in a row bring the safe state, which only a new plant
+/// leaves. A pure function of the arrivals, so that `simulate --ages` goes through the same bytes. It knows
+/// ticks and offsets within them, no clock. Nothing allocates after construction.
+class DeadlinePlant {
+ public:
+  /// `ticks`: as many arrivals are kept, beside a few.
+  DeadlinePlant(Plant plant, const PlantSettings& settings, DeadlineSettings deadline, double rate_hz,
+                std::int64_t ticks);
+
+  Plant& plant() { return plant_; }
+  const Plant& plant() const { return plant_; }
+
+  /// COMMAND(`tick`) arrives `offset` ns of plant time after the start of the tick in hand. Older ones than
+  /// the newest one are no news. COMMAND(0) acts at once, whatever the delay: the robot starts held.
+  void command(std::int64_t tick, std::int64_t offset, std::span<const double> tau);
+
+  /// Goes on to the next tick.
+  void finish_tick();
+
+  /// Brings the safe state, from the tick in hand on. `cause` must outlive this.
+  void make_safe(const char* cause);
+  struct Safe {
+    std::int64_t tick;
+    const char* cause;
+  };
+  const std::optional<Safe>& safe() const { return safe_; }
+
+  /// The command in effect at the end of the last tick, before limits; in the safe state, what stands for it.
+  std::span<const double> commanded() const { return {commanded_.data(), n_}; }
+
+  std::int64_t missed() const { return missed_; }              ///< ticks whose command came late or never
+  std::int64_t longest_miss() const { return longest_miss_; }  ///< the longest run of them
+  double success_last_100() const;                             ///< of the last 100 ticks, as far as there are
+  const std::vector<Arrival>& arrivals() const { return arrivals_; }
+
+ private:
+  struct Effect {
+    std::int64_t tick = 0;
+    double offset = 0;  ///< s
+    Vector tau;
+  };
+  void queue(std::int64_t tick, double offset, std::span<const double> tau);
+  void count(bool in_time);
+  void take_safe_torque();
+
+  Plant plant_;
+  DeadlineSettings deadline_;
+  double tick_length_, delay_;
+  std::size_t n_;
+  std::int64_t newest_ = -1;     ///< the newest command that arrived
+  std::vector<Effect> effects_;  ///< a ring of those that are still to act
+  std::size_t first_ = 0, waiting_ = 0;
+  Vector commanded_, stand_;  ///< stand_: psi where the safe state began
+  std::optional<Safe> safe_;
+  std::vector<Arrival> arrivals_;
+
+  std::int64_t missed_ = 0, longest_miss_ = 0, run_of_misses_ = 0, counted_ = 0;
+  std::vector<bool> last_hundred_;
+};
+
+}  // namespace mixloop

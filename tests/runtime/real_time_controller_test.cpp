@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The controller's side of real time, before a scripted plant and planner.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "runtime/controller_peer.hpp"
+#include "tests/runtime/scripted_peer.hpp"
+
+namespace mixloop {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Ticks of 20 ms, so that a busy machine changes nothing. tau = (psi_desired, tick, 0), safe: (-1, -1, -1).
+class RealTimeController : public testing::Test {
+ protected:
+  RealTimeController() {
+    ControllerSide side;
+    side.compute = [](const state_t& state, const reference_t& r, std::span<double> tau) {
+      tau[0] = r.psi_desired[0];
+      tau[1] = static_cast<double>(state.seq);
+      tau[2] = 0;
+      return 0;
+    };
+    side.safe = [](std::span<double> tau) { std::fill(tau.begin(), tau.end(), -1.0); };
+    peer_.emplace(PeerOptions{.n = kScriptN,
+                              .session = kScriptSession,
+                              .config = kScriptConfig,
+                              .rate_hz = 50,
+                              .last_tick = 1000,
+                              .max_missed = 5},
+                  side);
+  }
+  void send_state(std::int64_t tick) {
+    auto state = ScriptedPeer::message<state_t>(tick);
+    state.flags = state_t::FLAG_REAL_TIME;
+    script_.send("STATE", state);
+  }
+  command_t command(std::int64_t tick) {
+    const auto c = script_.next<command_t>("COMMAND");
+    EXPECT_TRUE(c) << "no command for tick " << tick;
+    if (!c) return blank<command_t>(kScriptN);
+    EXPECT_EQ(c->seq, tick);
+    return *c;
+  }
+
+  ScriptedPeer script_{"COMMAND"};
+  std::optional<RunningPeer<ControllerPeer>> peer_;
+};
+
+TEST_F(RealTimeController, answers_as_in_lockstep_where_all_is_there) {
+  script_.send_reference(0, 5);
+  send_state(0);
+  const command_t c = command(0);
+  EXPECT_EQ(c.tau_commanded[0], 5);
+  EXPECT_EQ(c.flags, 0);
+}
+
+// From psi = 5, psi' = 2, psi'' = 100: after dt = 0.02 s 5.06, after 5 dt = 0.1 s 5.7.
+TEST_F(RealTimeController, extrapolates_a_missing_reference_to_second_order_for_some_ticks) {
+  auto reference = ScriptedPeer::message<reference_t>(0);
+  reference.psi_desired[0] = 5;
+  reference.psid_desired[0] = 2;
+  reference.psidd_desired[0] = 100;
+  script_.send("REFERENCE", reference);
+  send_state(0);
+  command(0);
+  send_state(1);
+  const command_t near = command(1);
+  EXPECT_EQ(near.flags, command_t::FLAG_EXTRAPOLATED);
+  EXPECT_NEAR(near.tau_commanded[0], 5.06, 1e-14);
+  send_state(5);
+  EXPECT_NEAR(command(5).tau_commanded[0], 5.7, 1e-14);
+  send_state(6);  // one tick more than is forgiven
+  const command_t far = command(6);
+  EXPECT_EQ(far.flags, command_t::FLAG_SAFE);
+  EXPECT_EQ(far.tau_commanded[0], -1);
+  script_.send_reference(7, 8);
+  send_state(7);
+  const command_t again = command(7);
+  EXPECT_EQ(again.flags, 0) << "back with the planner";
+  EXPECT_EQ(again.tau_commanded[0], 8);
+}
+
+TEST_F(RealTimeController, sends_one_safe_command_where_the_plant_falls_silent) {
+  script_.send_reference(0, 5);
+  send_state(0);
+  command(0);
+  const Instant quiet = now();
+  const command_t c = command(0);
+  EXPECT_EQ(c.flags, command_t::FLAG_SAFE);
+  EXPECT_GE(now() - quiet, 80ms) << "5 ticks of 20 ms, less what went before";
+  EXPECT_FALSE(script_.next<command_t>("COMMAND", 200ms)) << "once";
+}
+
+TEST_F(RealTimeController, sends_a_safe_command_on_stop_and_leaves) {
+  script_.send_reference(0, 5);
+  send_state(0);
+  command(0);
+  script_.send("STOP", ScriptedPeer::message<stop_t>(0));
+  EXPECT_EQ(command(0).flags, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_STOPPED);
+  EXPECT_EQ(peer_->ending(), Ending::stopped);
+}
+
+TEST_F(RealTimeController, follows_the_plant_into_its_next_session) {
+  script_.send_reference(0, 5);
+  send_state(0);
+  command(0);
+  auto reset = ScriptedPeer::message<sim_control_t>(0);
+  reset.action = sim_control_t::ACTION_RESET;
+  reset.seq = 4711;
+  script_.send("SIM_CONTROL", reset);
+  auto state = ScriptedPeer::message<state_t>(0);
+  state.session = 4711;
+  state.flags = state_t::FLAG_REAL_TIME;
+  auto reference = ScriptedPeer::message<reference_t>(0);
+  reference.session = 4711;
+  reference.psi_desired[0] = 9;
+  script_.send("REFERENCE", reference);
+  script_.send("STATE", state);
+  const auto c = script_.next<command_t>("COMMAND");
+  ASSERT_TRUE(c);
+  EXPECT_EQ(c->session, 4711);
+  EXPECT_EQ(c->tau_commanded[0], 9);
+}
+
+}  // namespace
+}  // namespace mixloop

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// `mixloop run --realtime`, its operator, and its bad days. Slowed down five times, so that a busy machine's
+// holes are short against a tick.
+#include <gmock/gmock.h>
+
+#include <csignal>
+
+#include "tests/support/command.hpp"
+#include "tests/tools/heard.hpp"
+#include "tests/tools/paths.hpp"
+
+namespace mixloop {
+namespace {
+
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+std::vector<std::string> real_time(std::initializer_list<std::string> more = {}, const char* speed = "0.2") {
+  std::vector<std::string> words = {bin("mixloop"), "run",        experiment("paper"),
+                                    "--json",       "--realtime", "--speed",
+                                    speed,          "--set",      "limits.position_error=1 m"};
+  words.insert(words.end(), more);
+  return words;
+}
+
+int pid_of(const Command& run, const std::string& name) {
+  for (const int pid : run.children()) {
+    const auto program = std::filesystem::read_symlink("/proc/" + std::to_string(pid) + "/exe").filename();
+    if (program == name) return pid;
+  }
+  ADD_FAILURE() << "no " << name;
+  return -1;
+}
+
+TEST(RunInRealTime, IsGoneThroughAgainBitByBitFromItsAges) {
+  const ScratchFolder folder;
+  Command run(real_time({"--out", folder.file("kept")}));
+  const int status = run.wait();
+  EXPECT_TRUE(status == 0 || status == 1 || status == 3) << run.err();
+  const auto result = run.json();
+  EXPECT_EQ(result["route"], "real_time");
+  EXPECT_GE(result["wall_time"], 5.0);
+  for (const char* key : {"missed_deadlines", "longest_miss", "success_last_100", "overruns", "wake_up_p50",
+                          "wake_up_p99", "wake_up_p999", "wake_up_max", "round_trip_p50"})
+    EXPECT_TRUE(result.contains(key)) << key;
+  Command again({bin("mixloop"), "simulate", experiment("paper"), "--json", "--ages",
+                 folder.file("kept/ages.csv"), "--set", "limits.position_error=1 m"});
+  again.wait();
+  EXPECT_EQ(again.json()["trajectory_sha256"], result["trajectory_sha256"]);
+  EXPECT_EQ(again.json()["max_position_error"], result["max_position_error"]);
+}
+
+TEST(RunInRealTime, GoesIntoItsSafeStateWhileAPeerIsSuspended) {
+  const std::pair<const char*, const char*> cases[] = {{"mixloop-controller", "commands missed"},
+                                                       {"mixloop-planner", "controller sends safe commands"},
+                                                       {"mixloop-plant", "suspended"}};
+  for (const auto& [victim, cause] : cases) {
+    SCOPED_TRACE(victim);
+    Command run(real_time({}, "0.5"));
+    ASSERT_TRUE(heard("COMMAND", 50));
+    const int pid = pid_of(run, victim);
+    kill(pid, SIGSTOP);
+    std::this_thread::sleep_for(500ms);
+    kill(pid, SIGCONT);
+    EXPECT_EQ(run.wait(), 3) << run.err();
+    const auto result = run.json();
+    EXPECT_EQ(result["verdict"], "safe_state");
+    EXPECT_THAT(result["safe_cause"].get<std::string>(), HasSubstr(cause));
+    EXPECT_EQ(result["safe_state"], "hold");
+    EXPECT_GT(result["safe_at"], 0.0);
+    EXPECT_EQ(result["ticks"], 1000) << "in its safe state time goes on";
+  }
+}
+
+TEST(RunInRealTime, IsPausedSteppedResetAndStoppedByItsOperator) {
+  Command run(real_time({"--paused", "--hold"}, "1"));
+  const auto control = [](std::initializer_list<std::string> words) {
+    std::vector<std::string> line = {bin("mixloop"), "control"};
+    line.insert(line.end(), words);
+    line.emplace_back("--json");
+    Command command(line);
+    EXPECT_EQ(command.wait(), 0) << command.err();
+    return command.json();
+  };
+  ASSERT_TRUE(heard("COMMAND", 1));
+  const auto paused = control({"step", "10"});
+  std::this_thread::sleep_for(300ms);
+  const auto stepped = control({"speed", "0.5"});
+  EXPECT_EQ(paused["tick"], 0);
+  EXPECT_EQ(stepped["tick"], 10);
+  control({"resume"});
+  ASSERT_TRUE(heard("COMMAND", 20));
+  const auto going = control({"reset"});
+  EXPECT_GT(going["tick"], 10);
+  std::this_thread::sleep_for(300ms);
+  const auto fresh = control({"resume"});
+  EXPECT_NE(fresh["session"], paused["session"]);
+  EXPECT_EQ(fresh["tick"], 0) << "it was started paused, and so is the new session";
+  ASSERT_TRUE(heard("COMMAND", 20));
+  control({"stop"});
+  EXPECT_EQ(run.wait(), 130) << run.err();
+}
+
+TEST(RunInRealTime, SaysThatControlHasNoPlant) {
+  Command command({bin("mixloop"), "control", "pause", "--patience", "0.1", "--json"});
+  EXPECT_EQ(command.wait(), 3);
+  EXPECT_THAT(command.json()["error"]["message"].get<std::string>(), HasSubstr("MIXLOOP_STATE"));
+}
+
+TEST(RunInRealTime, RefusesSpeedMax) {
+  Command command(real_time({}, "max"));
+  EXPECT_EQ(command.wait(), 2);
+  EXPECT_THAT(command.out() + command.err(), HasSubstr("real time"));
+}
+
+}  // namespace
+}  // namespace mixloop
