@@ -14,7 +14,8 @@ namespace mixloop {
 namespace {
 
 constexpr std::int32_t kMostMotors = 1000;
-constexpr std::int64_t kWindow = 256;           // ticks that messages may come late by
+constexpr std::int64_t kWindow = 256;            // ticks kept open
+constexpr std::int64_t kAhead = 64;              // of them past the latest state: references come early
 constexpr std::int64_t kFarthestJump = 100'000;  // ticks: past it a tick can't be
 
 bool sound(const Header& header) {
@@ -89,8 +90,10 @@ class Assembly {
   /// Null for a tick that is told already or can't be.
   Slot* slot_of(std::int64_t k, bool is_state) {
     if (k < next_ || k > latest_ + kFarthestJump || (!is_state && k >= next_ + kWindow)) return nullptr;
-    while (k >= next_ + kWindow) emit();
-    if (is_state) latest_ = std::max(latest_, k);
+    if (is_state) {
+      while (k + kAhead >= next_ + kWindow) emit();
+      latest_ = std::max(latest_, k);
+    }
     return &slots_[static_cast<std::size_t>(k % kWindow)];
   }
 

@@ -97,6 +97,25 @@ TEST(LogRun, PutsTheMessagesOfATickTogether) {
   EXPECT_EQ(all.facts.commands_missing + all.facts.states_missing + all.facts.references_missing, 0);
 }
 
+// As on the bus: a reference comes before its state, all along.
+TEST(LogRun, TakesMessagesThatComeEarlyInALongRun) {
+  ScratchFolder folder;
+  const auto file = folder.file("log");
+  {
+    Log log(file);
+    log.reference(0, 0, 0);
+    for (int k = 0; k < 1000; ++k) {
+      log.state(k, k, 1000 * k);
+      log.reference(k + 1, k + 1, 1000 * k + 50);
+      log.command(k, 1, 1000 * k + 100);
+    }
+  }
+  const Read all = read(file);
+  ASSERT_EQ(all.ticks.size(), 1000u);
+  EXPECT_EQ(all.facts.references_missing + all.facts.commands_missing + all.facts.dropped, 0);
+  for (const Tick& tick : all.ticks) EXPECT_EQ(tick.psi_desired[0], tick.psi[0]);
+}
+
 TEST(LogRun, LeavesGapsWhereTheLogHasThem) {
   ScratchFolder folder;
   const auto file = folder.file("log");
