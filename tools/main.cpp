@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
       "Each command has its own --help, e.g. mixloop simulate --help.");
   mixloop::add_simulate_command(app, status);
   mixloop::add_run_command(app, status);
+  mixloop::add_replay_command(app, status);
   mixloop::add_control_command(app, status);
   mixloop::add_track_command(app, status);
   mixloop::add_dynamics_command(app, status);

@@ -26,17 +26,22 @@ TEST(Processes, FindEachOtherWhenStartedByHand) {
 
 TEST(Processes, AllocateNothingInTheirSteadyState) {
   if (MIXLOOP_SANITIZED) GTEST_SKIP() << "a sanitizer has its own malloc";
-  ScratchFolder folder;
-  Command command({bin("mixloop"), "run", experiment("paper"), "--truth", "--json"},
-                  {"LD_PRELOAD=" MIXLOOP_STEADY_ALLOCATIONS_LIBRARY,
-                   "MIXLOOP_STEADY_ALLOCATIONS=" + folder.file("counts")});
-  ASSERT_EQ(command.wait(), 0) << command.err();
-  std::ifstream counts(folder.file("counts"));
-  std::map<std::string, long> found;
-  std::string name;
-  for (long count = 0; counts >> name >> count;) found[name] = count;
-  EXPECT_EQ(found, (std::map<std::string, long>{
-                       {"mixloop-controller", 0}, {"mixloop-planner", 0}, {"mixloop-plant", 0}}));
+  for (const char* how : {"--lockstep", "--realtime"}) {
+    SCOPED_TRACE(how);
+    ScratchFolder folder;
+    Command command({bin("mixloop"), "run", experiment("paper"), how, "--truth", "--json", "--set",
+                     "limits.position_error=1 m"},
+                    {"LD_PRELOAD=" MIXLOOP_STEADY_ALLOCATIONS_LIBRARY,
+                     "MIXLOOP_STEADY_ALLOCATIONS=" + folder.file("counts")});
+    command.wait();  // in real time a busy machine's misses may cost the verdict
+    std::ifstream counts(folder.file("counts"));
+    std::map<std::string, long> found;
+    std::string name;
+    for (long count = 0; counts >> name >> count;) found[name] = count;
+    EXPECT_EQ(found, (std::map<std::string, long>{
+                         {"mixloop-controller", 0}, {"mixloop-planner", 0}, {"mixloop-plant", 0}}))
+        << command.err();
+  }
 }
 
 TEST(Processes, RefuseAPeerThatWasStartedWithSomethingElse) {
