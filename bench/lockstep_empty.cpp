@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
 
   Bus bus;
   PlantSide side;
-  side.measure = [](std::int64_t, std::span<double>, std::span<double>) {};
+  side.measure = [](std::int64_t, std::span<double>, std::span<double>) { return false; };
   side.advance = [](std::int64_t, std::span<const double>) { return true; };
   LockstepPlant plant(bus, stop, {.n = n, .last_tick = ticks}, side);
   plant.run();

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "loop/measured_state.hpp"
 #include "loop/simulate.hpp"
 #include "notation/errors.hpp"
 
@@ -63,7 +64,8 @@ std::vector<Arrival> read_arrivals(const std::filesystem::path& file) {
 void simulate_arrivals(const Experiment& experiment, const Plan& plan, const std::vector<Arrival>& arrivals,
                        Recorder& recorder, const std::function<bool(std::int64_t k)>& go_on) {
   DeadlinePlant hardware = make_deadline_plant(experiment, plan);
-  const Plant& plant = hardware.plant();
+  Plant& plant = hardware.plant();
+  MeasuredState measured(plant);
   GuardedController controller = make_guarded_controller(experiment);
   require_start(controller, plant.psi(), plan);
   const auto n = static_cast<std::size_t>(experiment.scene->n());
@@ -77,7 +79,9 @@ void simulate_arrivals(const Experiment& experiment, const Plan& plan, const std
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
     if (!go_on(k)) return recorder.interrupted();
     // Only a state that was answered did anything: where a limit on torque rates remembers, that counts.
-    controller.torque(plant.psi(), plant.psid(), false, plan.at(k), plant.time(), command(k));
+    measured.take(plant);
+    controller.torque(measured.psi(), measured.psid(), measured.stale(), plan.at(k), plant.time(), command(k));
+    recorder.note_changes(k, plant.faults());
     const bool was_safe = hardware.safe().has_value();
     for (; next != arrivals.end() && next->tick == k; ++next)
       hardware.command(next->command, next->offset, command(next->command));

@@ -6,6 +6,7 @@
 
 #include "dynamics/scene/load_scene.hpp"
 #include "notation/value.hpp"
+#include "plant/hardware.hpp"
 
 namespace mixloop {
 namespace {
@@ -54,6 +55,18 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
         read_motor_values(limit, *experiment.scene, kMoment, kForce, "the torque limit");
 }
 
+void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
+  PlantSettings& plant = experiment.plant;
+  const NodePtr faults = root.find("faults");
+  if (faults)
+    plant.faults.scheduled =
+        read_faults(faults, *experiment.scene, has_damping(*experiment.scene) || plant.actuators.has_friction(),
+                    experiment.rate_hz, experiment.plant_parameters);
+  if (const NodePtr seed = root.find("seed"))
+    plant.seed = static_cast<std::uint64_t>(whole_number_of(*seed, 0, 1L << 53, "the seed"));
+  check_hardware(plant, root.find("plant"), faults);
+}
+
 NodePtr parameters_in(const NodePtr& section) {
   return section ? find_entry(*section, "parameters") : nullptr;
 }
@@ -77,7 +90,8 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   Experiment experiment;
   experiment.document = overridden(document, overrides, false);
   const Mapping root(experiment.document, "the experiment",
-                     {"scene", "rate", "path", "controller", "plant", "real_time", "parameters", "limits", "expect"});
+                     {"scene", "rate", "path", "controller", "plant", "real_time", "parameters", "limits", "expect",
+                      "faults", "seed"});
   experiment.file = file;
   experiment.name = file.stem().string();
   const auto base = file.parent_path();
@@ -99,7 +113,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
                                  experiment.controller_scene->n(), scene.n()));
 
   const NodePtr plant = root.find("plant");
-  if (plant) experiment.plant = read_plant_settings(plant, scene);
+  if (plant) experiment.plant = read_plant_settings(plant, scene, experiment.rate_hz);
   if (const NodePtr real_time = root.find("real_time")) experiment.deadline = read_deadline_settings(real_time);
   experiment.deadline.kp = experiment.controller.kp;
   experiment.deadline.kv = experiment.controller.kv;
@@ -112,6 +126,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   experiment.controller_parameters = parameter_values(
       *experiment.controller_scene, parameters_in(controller),
       other_scene ? experiment.controller_scene->default_parameters() : experiment.parameters);
+  read_faults_and_seed(root, experiment);
   if (const NodePtr limits = root.find("limits")) read_limits(limits, experiment);
   if (const NodePtr expect = root.find("expect")) experiment.expect = read_expectation(expect, scene);
   return experiment;
@@ -148,7 +163,7 @@ Experiment with_integrator_settled(Experiment experiment, const Plan& plan) {
   if (!experiment.plant.automatic || experiment.integrator_choice) return experiment;
   const IntegratorChoice choice =
       choose_integrator(experiment.scene, experiment.plant_parameters, plan, experiment.rate_hz,
-                        experiment.plant.local_error);
+                        experiment.plant.local_error, !experiment.plant.actuators.any());
   experiment.plant.integrator = choice.method;
   experiment.plant.substeps = choice.substeps;
   experiment.plant.local_error = 0;  // the steps are settled
@@ -163,10 +178,12 @@ Plant make_plant(const Experiment& experiment, const Plan& plan) {
   const auto dynamics = [&](std::initializer_list<Purpose> purposes) {
     return Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, purposes);
   };
+  PlantSettings settings = experiment.plant;
+  settings.parameters = experiment.plant_parameters;
   return Plant(facts(experiment.plant.integrator).jacobian
                    ? dynamics({Purpose::forward_dynamics, Purpose::linearisation})
                    : dynamics({Purpose::forward_dynamics}),
-               experiment.plant, experiment.rate_hz, span_of(start));
+               std::move(settings), experiment.rate_hz, span_of(start));
 }
 
 DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan) {

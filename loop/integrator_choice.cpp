@@ -53,11 +53,12 @@ class Chooser {
     }
   }
 
-  std::optional<IntegratorChoice> cheapest() {
+  std::optional<IntegratorChoice> cheapest(bool jacobian) {
     std::optional<IntegratorChoice> best;
     double least = 0;
     for (const MethodFacts& method : all_methods()) {
       if (method.method == Method::gauss8) continue;  // iterates: no fixed cost
+      if (method.jacobian && !jacobian) continue;
       for (int substeps = 1; substeps <= kMostSubsteps; substeps *= 2) {
         const double price = cost(method, substeps);
         if (best && price > least) break;
@@ -161,10 +162,10 @@ class Chooser {
 }  // namespace
 
 IntegratorChoice choose_integrator(const std::shared_ptr<const Scene>& scene, const std::vector<double>& parameters,
-                                   const Plan& plan, double rate_hz, double local_error) {
+                                   const Plan& plan, double rate_hz, double local_error, bool jacobian) {
   Chooser chooser(scene, parameters, rate_hz, local_error);
   chooser.look(plan);
-  if (const auto choice = chooser.cheapest()) return *choice;
+  if (const auto choice = chooser.cheapest(jacobian)) return *choice;
   throw InputError("out_of_reach", {},
                    fmt::format("no integrator keeps a local error of {:g} with up to {} steps a tick; expected a larger "
                                "plant.local_error or rate",

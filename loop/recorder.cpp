@@ -22,9 +22,35 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
       rate_hz_(experiment.rate_hz),
       limit_(experiment.position_error_limit),
       rows_(static_cast<std::size_t>(plan.ticks() + 3) * (4 * n_ + 1)),
+      conditions_{-1, 1},
       zero_(n_, 0.0),
       hand_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
   measures_.max_torque = Vector::Zero(experiment.scene->n());
+  const auto& parameters = experiment.plant_parameters;
+  conditions_.insert(conditions_.end(), parameters.begin(), parameters.end());
+  row_of_conditions_ = conditions_.size();
+  // A fault begins and ends; injected ones, more of which than wait at a time come seldom.
+  const std::size_t faults = experiment.plant.faults.scheduled.size() +
+                             (experiment.plant.faults.injected ? kInjectedKept : 0);
+  conditions_.reserve(row_of_conditions_ * (1 + 2 * faults));
+}
+
+void Recorder::note_changes(std::int64_t k, const Faults* faults) {
+  if (!faults || faults->changed_at() != k) return;
+  const bool full = conditions_.size() + row_of_conditions_ > conditions_.capacity();
+  const bool same_tick = conditions_[conditions_.size() - row_of_conditions_] == static_cast<double>(k);
+  if (full || same_tick) conditions_.resize(conditions_.size() - row_of_conditions_);
+  conditions_.push_back(static_cast<double>(k));
+  conditions_.push_back(faults->friction());
+  conditions_.insert(conditions_.end(), faults->parameters().begin(), faults->parameters().end());
+}
+
+Recorder::Conditions Recorder::conditions(std::int64_t k) const {
+  std::size_t at = conditions_.size() - row_of_conditions_;
+  while (at > 0 && conditions_[at] > static_cast<double>(k)) at -= row_of_conditions_;
+  return {static_cast<std::int64_t>(conditions_[at]),
+          {conditions_.data() + at + 2, row_of_conditions_ - 2},
+          conditions_[at + 1]};
 }
 
 bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work) {

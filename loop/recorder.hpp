@@ -23,6 +23,9 @@ class Recorder {
   /// Takes the command of tick k, which completes the tick. False where it is not finite.
   bool command(std::int64_t k, std::span<const double> tau, std::span<const double> applied);
 
+  /// Keeps what faults have changed at tick k, if anything; before its command. `faults` may be null.
+  void note_changes(std::int64_t k, const Faults* faults);
+
   void interrupted();
   /// From tick k on the plant is in its safe state: recorded, and judged no more.
   void made_safe(std::int64_t k);
@@ -34,6 +37,13 @@ class Recorder {
   std::span<const double> applied(std::int64_t k) const { return column(k, 3); }
   double work(std::int64_t k) const { return row(k)[4 * n_]; }
   double time(std::int64_t k) const { return static_cast<double>(k) / rate_hz_; }
+  /// The scene's parameters and the factor on its friction at a tick.
+  struct Conditions {
+    std::int64_t since = -1;  ///< the tick of the latest change; -1: none
+    std::span<const double> parameters;
+    double friction = 1;
+  };
+  Conditions conditions(std::int64_t k) const;
   double position_error() const { return error_; }  ///< at the latest state, m
 
   Measures measures() const;
@@ -55,6 +65,10 @@ class Recorder {
   std::size_t n_;
   double rate_hz_, limit_;
   std::vector<double> rows_;  ///< of each tick: psi, psid, commanded, applied (n each), work
+  /// Changes kept of injected faults; past them the latest one stands for those before it.
+  static constexpr std::size_t kInjectedKept = 1000;
+  std::size_t row_of_conditions_ = 0;
+  std::vector<double> conditions_;  ///< rows of tick, friction, parameters: as it began, then each change
   std::vector<double> zero_, hand_;
   std::int64_t recorded_ = 0;
   double error_ = 0, sum_of_squares_ = 0;

@@ -107,6 +107,7 @@ nlohmann::json result_json(const Experiment& experiment, const Measures& measure
       {"expects_divergence", experiment.expect.diverges},
   };
   json["integrator"] = integrator_json(experiment);
+  if (experiment.plant.random()) json["seed"] = experiment.plant.seed;
   for (std::size_t i = 0; i < experiment.scene->parameters.size(); ++i)
     json["parameters"][experiment.scene->parameters[i].name] = experiment.plant_parameters[i];
   if (measures.diverged_at) json["diverged_at"] = *measures.diverged_at;

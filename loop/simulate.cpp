@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "loop/simulate.hpp"
 
+#include "loop/measured_state.hpp"
 #include "notation/errors.hpp"
 
 namespace mixloop {
@@ -16,14 +17,17 @@ void simulate(const Experiment& experiment, const Plan& plan, Recorder& recorder
   GuardedController controller = make_guarded_controller(experiment);
   require_start(controller, plant.psi(), plan);
   Vector tau = Vector::Zero(experiment.scene->n());
+  MeasuredState measured(plant);
   const auto control = [&](int stage, double t, std::span<const double> psi, std::span<const double> psid,
                            std::span<double> out) {
     controller.torque(psi, psid, false, plan.at_stage(plant.tick(), stage), t, out);
   };
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
+    recorder.note_changes(k, plant.faults());
     if (!recorder.state(k, plant.psi(), plant.psid(), plant.work())) return;
     if (!go_on(k)) return recorder.interrupted();
-    controller.torque(plant.psi(), plant.psid(), false, plan.at(k), plant.time(), span_of(tau));
+    measured.take(plant);
+    controller.torque(measured.psi(), measured.psid(), measured.stale(), plan.at(k), plant.time(), span_of(tau));
     plant.command(span_of(std::as_const(tau)));
     if (!recorder.command(k, span_of(std::as_const(tau)), plant.applied())) return;
     if (k == plan.ticks()) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "loop/recorder.hpp"
+#include "plant/scaled_friction.hpp"
 
 namespace mixloop {
 
@@ -23,6 +24,8 @@ class TruthReader {
  private:
   const Recorder& recorder_;
   Dynamics dynamics_;
+  std::optional<ScaledFriction> friction_;
+  std::int64_t conditions_since_ = -1;
   std::vector<double> hand_;
   Truth truth_;
 };

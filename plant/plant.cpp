@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dynamics/scene/time_dependence.hpp"
+#include "plant/hardware.hpp"
 
 namespace mixloop {
 
@@ -29,6 +30,17 @@ Plant::Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::spa
   const double rest = ticks - static_cast<double>(delay_ticks_);
   delay_rest_ = rest > 1e-9 ? rest / rate_hz_ : 0;
   commands_.assign(delay_ticks_ + 2, applied_);
+  if (!Hardware::needed(settings_)) return;
+  hardware_ = std::make_unique<Hardware>(settings_, dynamics_, rate_hz_);
+  begin_hardware_tick();
+}
+
+Plant::~Plant() = default;
+Plant::Plant(Plant&&) noexcept = default;
+
+void Plant::begin_tick() {
+  ++tick_;
+  if (hardware_) begin_hardware_tick();
 }
 
 void Plant::command(std::span<const double> tau) {
@@ -47,7 +59,7 @@ void Plant::advance() {
   if (delay_rest_ > 0) integrate_held(time(), delay_rest_);
   saturate(span_of(std::as_const(commands_[slot])));
   integrate_held(time() + delay_rest_, tick_length - delay_rest_);
-  ++tick_;
+  begin_tick();
 }
 
 void Plant::take_effect(double offset, std::span<const double> tau) {
@@ -61,7 +73,7 @@ void Plant::finish_tick() {
   const double rest = 1.0 / rate_hz_ - within_;
   if (rest > 0) integrate_held(time() + within_, rest);
   within_ = 0;
-  ++tick_;
+  begin_tick();
 }
 
 void Plant::lock() {
@@ -73,21 +85,43 @@ void Plant::lock() {
 
 void Plant::acceleration(std::span<double> psidd) {
   dynamics_.forward_dynamics(psi(), psid(), applied(), time(), psidd);
+  if (hardware_) scale_friction(psi(), psid(), time(), psidd);
 }
 
 void Plant::saturate(std::span<const double> tau) {
+  if (hardware_) tau = hardware_->through_faults(tick_, tau);
   for (std::size_t i = 0; i < n_; ++i) {
     const double limit = settings_.torque_limit.empty() ? HUGE_VAL : settings_.torque_limit[i];
     applied_[static_cast<Eigen::Index>(i)] = std::clamp(tau[i], -limit, limit);
   }
+  if (!hardware_ || !hardware_->actuators) return;
+  hardware_->actuators->take(applied());
+  drive(0, psi(), psid());
 }
 
 void Plant::integrate_held(double t, double length) {
   if (locked_) return;
-  const auto rate = [&](int, int, double after, const Vector& x, Vector& dx) { rate_of(t + after, x, dx); };
-  const auto linear = [&](double after, const Vector& x, auto& jacobian) {
-    linearise(t + after, x, jacobian);
-  };
+  if (hardware_ && hardware_->drives()) return integrate_driven(t, length);
+  integrate_piece(t, length, [&](int, int, double after, const Vector& x, Vector& dx) { rate_of(t + after, x, dx); });
+}
+
+/// Pieces end where a torque has a kink.
+void Plant::integrate_driven(double t, double length) {
+  auto& actuators = hardware_->actuators;
+  for (double done = 0; done < length;) {
+    double end = actuators ? actuators->next_kink(done) : length;
+    if (!(end < length * (1 - 1e-9))) end = length;
+    integrate_piece(t + done, end - done, [&](int, int, double after, const Vector& x, Vector& dx) {
+      driven_rate_of(done + after, t + done + after, x, dx);
+    });
+    done = end;
+  }
+  if (actuators) actuators->pass(length);
+}
+
+template <class Rate>
+void Plant::integrate_piece(double t, double length, const Rate& rate) {
+  const auto linear = [&](double after, const Vector& x, auto& jacobian) { linearise(t + after, x, jacobian); };
   if (!facts(settings_.integrator).jacobian) return integrator_.advance(x_, length, rate, linear);
   // Such a method leaves the work alone; of a held torque it is tau . (psi+ - psi).
   const auto n = static_cast<Eigen::Index>(n_);
@@ -109,6 +143,9 @@ void Plant::rate_of(double t, const Vector& x, Vector& dx) {
 void Plant::linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian) {
   const auto n = static_cast<Eigen::Index>(n_);
   dynamics_.linearisation({x.data(), n_}, {x.data() + n_, n_}, applied(), t, span_of(linearisation_));
+  if (hardware_ && hardware_->friction_scaled())
+    hardware_->scene_friction->scale_slopes({x.data(), n_}, {x.data() + n_, n_}, applied(), t, hardware_->friction(),
+                                            span_of(linearisation_));
   jacobian.by_q = Eigen::Map<const Matrix>(linearisation_.data(), n, n);
   jacobian.by_v = Eigen::Map<const Matrix>(linearisation_.data() + n * n, n, n);
   if (timed_) time_derivative(t, x, jacobian.by_t);
@@ -118,8 +155,12 @@ void Plant::linearise(double t, const Vector& x, AccelerationJacobian<double>& j
 void Plant::time_derivative(double t, const Vector& x, Vector& by_t) {
   const double d = 6e-6 * std::max(1.0, std::abs(t));
   const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
-  dynamics_.forward_dynamics(psi, psid, applied(), t + d, span_of(by_t));
-  dynamics_.forward_dynamics(psi, psid, applied(), t - d, span_of(scratch_));
+  const auto acceleration_at = [&](double at, std::span<double> psidd) {
+    dynamics_.forward_dynamics(psi, psid, applied(), at, psidd);
+    if (hardware_) scale_friction(psi, psid, at, psidd);
+  };
+  acceleration_at(t + d, span_of(by_t));
+  acceleration_at(t - d, span_of(scratch_));
   by_t = (by_t - scratch_) / (2 * d);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,11 +12,16 @@
 
 namespace mixloop {
 
+class Hardware;
+
 /// The simulated hardware: constraint-reduced forward dynamics, a torque held from command to command (or
-/// continuous), dead time and saturation. It knows ticks, no clock.
+/// continuous), dead time and saturation; drives, sensors and faults where settings ask for them. It knows ticks, no
+/// clock.
 class Plant {
  public:
   Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::span<const double> psi0);
+  ~Plant();
+  Plant(Plant&&) noexcept;
 
   std::int64_t tick() const { return tick_; }
   double time() const { return static_cast<double>(tick_) / rate_hz_; }  ///< t_k = k / rate
@@ -23,8 +29,18 @@ class Plant {
   std::span<const double> psid() const { return {x_.data() + n_, n_}; }
   /// The work that the motors have done, J: the integral of tau . psi'.
   double work() const { return x_[static_cast<Eigen::Index>(2 * n_)]; }
-  /// What acts from time() on, after delay and saturation, N m or N.
+  /// What acts from time() on, after delay, saturation and what the drives make of it, N m or N.
   std::span<const double> applied() const { return {applied_.data(), n_}; }
+
+  /// What the sensors say at tick(), n each; true where a reading is older than it should be.
+  bool measure(std::span<double> psi, std::span<double> psid);
+  /// Whether that is psi() and psid().
+  bool measures_exactly() const;
+  /// Takes a fault, which acts from tick() on or later. False: it can't be (objection says why), too many wait for their
+  /// time, or the settings don't allow any.
+  bool inject(const Fault& fault);
+  /// Null where nothing can go wrong.
+  const Faults* faults() const;
 
   /// Takes COMMAND(tick()); it acts from t_k + command_delay on.
   void command(std::span<const double> tau);
@@ -53,6 +69,15 @@ class Plant {
  private:
   void saturate(std::span<const double> tau);
   void integrate_held(double t, double h);
+  template <class Rate>
+  void integrate_piece(double t, double h, const Rate& rate);
+  void integrate_driven(double t, double h);
+  void begin_tick();
+  void begin_hardware_tick();
+  void take_changes();
+  void drive(double s, std::span<const double> psi, std::span<const double> psid);
+  void driven_rate_of(double s, double t, const Vector& x, Vector& dx);
+  void scale_friction(std::span<const double> psi, std::span<const double> psid, double t, std::span<double> psidd);
   void rate_of(double t, const Vector& x, Vector& dx);
   void linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian);
   void time_derivative(double t, const Vector& x, Vector& by_t);
@@ -73,6 +98,7 @@ class Plant {
   StageRows rows_;
   Vector linearisation_;  ///< 3 n^2, of methods with a Jacobian
   bool timed_;            ///< the forward dynamics depend on time
+  std::unique_ptr<Hardware> hardware_;  ///< null: ideal
 };
 
 template <class Control>
@@ -82,10 +108,10 @@ void Plant::advance_continuously(const Control& control) {
     control(rows_.rows * step + rows_.row[static_cast<std::size_t>(stage)], time() + t, psi, psid,
             span_of(applied_));
     saturate(span_of(std::as_const(applied_)));
-    rate_of(time() + t, x, dx);
+    hardware_ ? driven_rate_of(0, time() + t, x, dx) : rate_of(time() + t, x, dx);
   };
   integrator_.advance(x_, 1.0 / rate_hz_, rate, [](double, const Vector&, auto&) {});
-  ++tick_;
+  begin_tick();
 }
 
 }  // namespace mixloop

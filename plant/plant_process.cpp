@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "loop/arrivals.hpp"
 #include "loop/result.hpp"
 #include "runtime/lockstep_plant.hpp"
@@ -27,6 +29,12 @@ nlohmann::json json_of(const Rejects& rejects) {
           {"dimension", rejects.dimension}, {"not_finite", rejects.not_finite},
           {"session", rejects.session},     {"config", rejects.config},
           {"tick", rejects.tick},           {"stale", rejects.stale}};
+}
+
+bool saturated(const PlantSettings& settings, std::span<const double> commanded) {
+  for (std::size_t i = 0; i < settings.torque_limit.size(); ++i)
+    if (std::abs(commanded[i]) > settings.torque_limit[i]) return true;
+  return false;
 }
 
 }  // namespace
@@ -95,8 +103,7 @@ PlantSide PlantSession::side() {
   Plant& plant = hardware_.plant();
   PlantSide side;
   side.measure = [&plant](std::int64_t, std::span<double> psi, std::span<double> psid) {
-    std::copy(plant.psi().begin(), plant.psi().end(), psi.begin());
-    std::copy(plant.psid().begin(), plant.psid().end(), psid.begin());
+    return plant.measure(psi, psid);
   };
   side.advance = [this](std::int64_t k, std::span<const double> tau) { return advance(k, tau); };
   side.command = [this](std::int64_t tick, std::int64_t offset, std::span<const double> tau) {
@@ -116,6 +123,7 @@ PlantSide PlantSession::side() {
 
 bool PlantSession::advance(std::int64_t k, std::span<const double> tau) {
   Plant& plant = hardware_.plant();
+  note_faults(k);
   plant.command(tau);
   if (!recorder_.command(k, tau, plant.applied())) return false;
   if (tick_over(k)) return true;
@@ -126,11 +134,18 @@ bool PlantSession::advance(std::int64_t k, std::span<const double> tau) {
 bool PlantSession::finish_tick(std::int64_t k) {
   const Plant& plant = hardware_.plant();
   const bool was_safe = hardware_.safe().has_value();
+  note_faults(k);
   hardware_.finish_tick();
   if (!was_safe && hardware_.safe()) recorder_.made_safe(k + 1);
   if (!recorder_.command(k, hardware_.commanded(), plant.applied())) return false;
   if (tick_over(k)) return true;
   return recorder_.state(k + 1, plant.psi(), plant.psid(), plant.work());
+}
+
+void PlantSession::note_faults(std::int64_t k) {
+  const Faults* faults = hardware_.plant().faults();
+  recorder_.note_changes(k, faults);
+  fault_ = faults && faults->active();
 }
 
 void PlantSession::make_safe(const char* cause) {
@@ -162,9 +177,8 @@ void PlantSession::fill(std::int64_t k, truth_t& message) {
   message.kinetic_energy = truth.kinetic_energy;
   message.potential_energy = truth.potential_energy;
   message.work = truth.work;
-  const auto commanded = recorder_.commanded(k), applied = recorder_.applied(k);
-  message.flags =
-      std::equal(commanded.begin(), commanded.end(), applied.begin()) ? 0 : truth_t::FLAG_SATURATED;
+  message.flags = (saturated(experiment_.plant, recorder_.commanded(k)) ? truth_t::FLAG_SATURATED : 0) |
+                  (fault_ ? truth_t::FLAG_FAULT : 0);
 }
 
 void PlantSession::add_deadlines(nlohmann::json& result) const {

@@ -39,6 +39,7 @@ class PlantSession {
   bool finish_tick(std::int64_t k);
   bool tick_over(std::int64_t k);
   void make_safe(const char* cause);
+  void note_faults(std::int64_t k);
   void add_deadlines(nlohmann::json& result) const;
   void fill(std::int64_t k, truth_t& message);
   template <class Loop>
@@ -52,6 +53,7 @@ class PlantSession {
   TruthReader truth_;
   ReportLine& report_;
   const PlantReport* bus_ = nullptr;
+  bool fault_ = false;  ///< something was wrong at the tick last commanded
   bool finished_ = false;
   int status_ = 0;
 };

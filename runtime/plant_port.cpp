@@ -90,8 +90,8 @@ bool PlantPort::publish_state(std::int64_t tick, std::int32_t flags) {
   state_t& message = state_.message;
   message.seq = tick;
   message.utime = plant_time_us(tick, options_.rate_hz);
-  message.flags = state_flags_ | flags;
-  plant_.measure(tick, message.psi_measured, message.psid_measured);
+  const bool stale = plant_.measure(tick, message.psi_measured, message.psid_measured);
+  message.flags = state_flags_ | flags | (stale ? state_t::FLAG_STALE : 0);
   if (!is_finite(message)) return false;
   tick_ = tick;
   command_heard_ = false;

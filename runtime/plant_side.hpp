@@ -38,8 +38,8 @@ struct PlantOptions {
 
 /// The simulated hardware as the plant's loops call it. No function may allocate, lock or throw.
 struct PlantSide {
-  /// The sensors at the start of a tick.
-  std::function<void(std::int64_t tick, std::span<double> psi, std::span<double> psid)> measure;
+  /// The sensors at the start of a tick; true: a reading is stale.
+  std::function<bool(std::int64_t tick, std::span<double> psi, std::span<double> psid)> measure;
   /// Lockstep. Takes the tick's command and goes to the start of the next one (at the last tick: records the
   /// command). False: the run is over (divergence), nothing of the next tick may be published.
   std::function<bool(std::int64_t tick, std::span<const double> tau)> advance;

@@ -41,7 +41,7 @@ class Holding {
   static Plant plant_of(const Experiment& experiment, const Reference& start, const Sampling& sampling,
                         double off) {
     const Vector psi = start.psi.array() + off;
-    PlantSettings settings = experiment.plant;
+    PlantSettings settings = ideal(experiment.plant);
     settings.command_delay = sampling.delay;
     settings.torque_limit.clear();
     return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,

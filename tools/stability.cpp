@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "loop/result.hpp"
+#include "plant/hardware.hpp"
 #include "stability/confirmation.hpp"
 #include "stability/map.hpp"
 #include "tools/command_line.hpp"
@@ -169,7 +170,13 @@ class Study {
                            {"tick", 1 / nominal.rate_hz},
                            {"command_delay", nominal.plant.command_delay},
                            {"control", nominal.plant.continuous ? "continuous" : "held"},
+                           {"warnings", nlohmann::json::array()},
                            {"cases", nlohmann::json::array()}};
+    if (Hardware::needed(nominal.plant)) {
+      json["warnings"].push_back(
+          "sensors, actuators and faults are left out: the limits are those of ideal hardware");
+      if (!options_.json) fmt::print(stderr, "warning: {}\n", json["warnings"][0].get<std::string>());
+    }
     for (std::size_t i = 0; i < variants.size(); ++i) {
       say(fmt::format("case {} of {}: {}", i + 1, variants.size(), name_of(variants[i])));
       json["cases"].push_back(study(variants[i]));

@@ -24,8 +24,9 @@ class Plant : public testing::Test {
 
   PlantSide side() {
     PlantSide side;
-    side.measure = [](std::int64_t tick, std::span<double> psi, std::span<double>) {
+    side.measure = [this](std::int64_t tick, std::span<double> psi, std::span<double>) {
       psi[0] = static_cast<double>(tick);
+      return tick == stale_at_;
     };
     side.advance = [this](std::int64_t tick, std::span<const double> tau) {
       applied_.push_back(tau[0]);
@@ -66,7 +67,7 @@ class Plant : public testing::Test {
   }
 
   std::vector<double> applied_;
-  std::int64_t breaks_at_ = -1;
+  std::int64_t breaks_at_ = -1, stale_at_ = -1;
   ScriptedPeer script_{"STATE", "TRUTH", "SIM_CONTROL"};
   std::optional<RunningPeer<LockstepPlant>> plant_;
 };
@@ -157,6 +158,18 @@ TEST_F(Plant, publishes_the_truth_of_every_tick_when_asked) {
     EXPECT_EQ(t->seq, tick);
     EXPECT_EQ(t->work, static_cast<double>(tick));
   }
+}
+
+TEST_F(Plant, says_at_which_tick_a_reading_is_stale) {
+  stale_at_ = 1;
+  start(options(2));
+  for (std::int64_t k = 0; k <= 2; ++k) {
+    const auto s = first_state(k);
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->flags & state_t::FLAG_STALE, k == 1 ? state_t::FLAG_STALE : 0) << k;
+    script_.send("COMMAND", command(k));
+  }
+  EXPECT_EQ(plant_->ending(), Ending::finished);
 }
 
 TEST_F(Plant, publishes_nothing_of_the_tick_that_diverges) {

@@ -37,6 +37,7 @@ class RealTime : public testing::Test {
     PlantSide side;
     side.measure = [](std::int64_t tick, std::span<double> psi, std::span<double>) {
       psi[0] = static_cast<double>(tick);
+      return false;
     };
     side.command = [this](std::int64_t tick, std::int64_t offset, std::span<const double> tau) {
       taken_.push_back({tick, done_, offset, tau[0]});

@@ -58,6 +58,7 @@ int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {
   side.measure = [&](std::int64_t tick, std::span<double> psi, std::span<double> psid) {
     steady.at(tick);
     toy.measure(psi, psid);
+    return false;
   };
   side.advance = [&](std::int64_t, std::span<const double> tau) {
     commands.insert(commands.end(), tau.begin(), tau.end());

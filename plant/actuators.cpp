@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "plant/actuators.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "notation/value.hpp"
+#include "plant/each_motor.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr double kSmallest = 1e-300;
+constexpr double kSmooth = 0.1;  // rad/s or m/s
+constexpr Range kPositive{kSmallest, kNoLimit, "a positive value"}, kNotNegative{0, kNoLimit, "0 or more"};
+
+void read_ripple(const NodePtr& node, const Scene& scene, ActuatorSettings& settings) {
+  const Mapping entry(node, "the torque ripple", {"amplitude", "per_turn"});
+  settings.ripple = read_each_motor(entry.at("amplitude"), scene, kPure, kPure,
+                                    {0, 1, "0 to 1, a share of the torque"}, "the ripple's amplitude");
+  settings.ripple_per_turn =
+      read_each_motor(entry.at("per_turn"), scene, kPure, kPure, kPositive, "the ripple's periods per turn");
+  for (std::size_t i = 0; i < scene.motors.size(); ++i)
+    if (scene.motors[i].linear && settings.ripple[i] > 0)
+      throw InputError("out_of_range", entry.at("amplitude")->place,
+                       "the linear motor '" + scene.motors[i].name +
+                           "' has no turns for a ripple to go with; expected an amplitude of 0");
+}
+
+void read_friction(const NodePtr& node, const Scene& scene, ActuatorSettings& settings) {
+  const Mapping entry(node, "the drives' friction", {"viscous", "coulomb", "smooth"});
+  settings.viscous = read_each_motor(entry.find("viscous"), scene, kMoment * kTime, kForce * kTime / kLength,
+                                     kNotNegative, "viscous friction");
+  settings.coulomb =
+      read_each_motor(entry.find("coulomb"), scene, kMoment, kForce, kNotNegative, "Coulomb friction");
+  const NodePtr smooth = entry.find("smooth");
+  if (smooth && settings.coulomb.empty())
+    throw InputError("unknown_key", smooth->place, "smooth belongs to coulomb, and there is none");
+  settings.smooth = read_each_motor(smooth, scene, kFrequency, kLength / kTime, kPositive,
+                                    "the velocity up to which Coulomb friction is smooth");
+  if (settings.smooth.empty() && !settings.coulomb.empty()) settings.smooth.assign(scene.motors.size(), kSmooth);
+}
+
+}  // namespace
+
+ActuatorSettings read_actuator_settings(const NodePtr& node, const Scene& scene) {
+  const Mapping entry(node, "the actuators", {"rate_limit", "time_constant", "ripple", "friction"});
+  ActuatorSettings settings;
+  settings.rate_limit = read_each_motor(entry.find("rate_limit"), scene, kMoment / kTime, kForce / kTime, kPositive,
+                                        "the rate limit");
+  settings.time_constant =
+      read_each_motor(entry.find("time_constant"), scene, kTime, kTime, kNotNegative, "the time constant");
+  if (const NodePtr ripple = entry.find("ripple")) read_ripple(ripple, scene, settings);
+  if (const NodePtr friction = entry.find("friction")) read_friction(friction, scene, settings);
+  return settings;
+}
+
+Actuators::Actuators(const ActuatorSettings& settings, std::size_t n) {
+  const auto value = [](const std::vector<double>& values, std::size_t i, double otherwise) {
+    return values.empty() ? otherwise : values[i];
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    drives_.push_back({.rate = value(settings.rate_limit, i, HUGE_VAL),
+                       .lag = value(settings.time_constant, i, 0),
+                       .ripple = value(settings.ripple, i, 0),
+                       .per_turn = value(settings.ripple_per_turn, i, 0),
+                       .viscous = value(settings.viscous, i, 0),
+                       .coulomb = value(settings.coulomb, i, 0),
+                       .smooth = value(settings.smooth, i, kSmooth)});
+}
+
+double Actuators::Drive::ramp_time() const { return std::abs(u - r) / rate; }
+
+// r(s) = r0 + sign(u - r0) min(R s, |u - r0|)
+double Actuators::Drive::ramp(double s) const {
+  return s >= ramp_time() ? u : r + std::copysign(rate * s, u - r);
+}
+
+// T y' = r - y. On the ramp, with slope k: y = r0 + k (s + T (e^(-s/T) - 1)) + (y0 - r0) e^(-s/T), and at its end
+// towards u from there.
+double Actuators::Drive::lagged(double s) const {
+  if (lag == 0) return ramp(s);
+  const double end = ramp_time(), on_ramp = std::min(s, end), slope = std::copysign(rate, u - r);
+  double at = y;
+  if (on_ramp > 0)
+    at = r + slope * (on_ramp + lag * std::expm1(-on_ramp / lag)) + (y - r) * std::exp(-on_ramp / lag);
+  return s > end ? u + (at - u) * std::exp(-(s - end) / lag) : at;
+}
+
+void Actuators::take(std::span<const double> u) {
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    drives_[i].u = u[i];
+    if (!settled_) drives_[i].r = drives_[i].y = u[i];
+  }
+  settled_ = true;
+}
+
+void Actuators::torque(double s, std::span<const double> psi, std::span<const double> psid, double friction,
+                       std::span<double> tau) const {
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const Drive& drive = drives_[i];
+    double torque = drive.lagged(s);
+    if (drive.ripple > 0) torque *= 1 + drive.ripple * std::sin(drive.per_turn * psi[i]);
+    torque -= friction * drive.viscous * psid[i];
+    if (drive.coulomb > 0) torque -= friction * drive.coulomb * std::tanh(psid[i] / drive.smooth);
+    tau[i] = torque;
+  }
+}
+
+void Actuators::pass(double s) {
+  for (Drive& drive : drives_) {
+    drive.y = drive.lagged(s);
+    drive.r = drive.ramp(s);
+  }
+}
+
+double Actuators::next_kink(double s) const {
+  double next = HUGE_VAL;
+  for (const Drive& drive : drives_)
+    if (drive.lag == 0 && drive.ramp_time() > s) next = std::min(next, drive.ramp_time());
+  return next;
+}
+
+}  // namespace mixloop

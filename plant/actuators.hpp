@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dynamics/scene/scene.hpp"
+#include "notation/document.hpp"
+
+namespace mixloop {
+
+/// What the drives make of the torque asked of them. Vectors have a value a motor, in N m and rad or N and m; empty: not
+/// so.
+struct ActuatorSettings {
+  std::vector<double> rate_limit;       ///< N m/s
+  std::vector<double> time_constant;    ///< s, of a first-order lag; 0: none
+  std::vector<double> ripple;           ///< largest share of the torque
+  std::vector<double> ripple_per_turn;  ///< periods in a turn of the motor
+  std::vector<double> viscous;          ///< N m s
+  std::vector<double> coulomb;          ///< N m
+  std::vector<double> smooth;           ///< rad/s: c tanh(psi' / smooth) stands for Coulomb's c sign(psi')
+
+  bool any() const { return has_memory() || !ripple.empty() || has_friction(); }
+  bool has_memory() const { return !rate_limit.empty() || !time_constant.empty(); }
+  bool has_friction() const { return !viscous.empty() || !coulomb.empty(); }
+};
+
+/// Reads `{rate_limit, time_constant, ripple: {amplitude, per_turn}, friction: {viscous, coulomb, smooth}}`.
+ActuatorSettings read_actuator_settings(const NodePtr& node, const Scene& scene);
+
+/// The drives. A torque asked for (after dead time and saturation) goes through rate limit and lag, which have closed
+/// forms as long as it stays:
+///   r(s) = r0 + sign(u - r0) min(R s, |u - r0|),   T y' = r - y,
+///   tau = y (1 + A sin(N psi)) - b psi' - c tanh(psi' / v)
+/// so that the torque at a stage of the integrator is an exact function of the time since u began to act. Nothing
+/// allocates after construction.
+class Actuators {
+ public:
+  Actuators(const ActuatorSettings& settings, std::size_t n);
+
+  /// `u` is asked for from now on, n. The first one finds the drives settled on it.
+  void take(std::span<const double> u);
+
+  /// What acts `s` seconds after take or pass, whichever came last.
+  void torque(double s, std::span<const double> psi, std::span<const double> psid, double friction,
+              std::span<double> tau) const;
+
+  /// `s` seconds go by.
+  void pass(double s);
+
+  /// When, after `s`, a torque next has a kink: a ramp that no lag smooths is over. HUGE_VAL: never.
+  double next_kink(double s) const;
+
+ private:
+  struct Drive {
+    double rate, lag, ripple, per_turn, viscous, coulomb, smooth;
+    double u = 0, r = 0, y = 0;
+    double ramp_time() const;
+    double ramp(double s) const;
+    double lagged(double s) const;
+  };
+  std::vector<Drive> drives_;
+  bool settled_ = false;
+};
+
+}  // namespace mixloop

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "plant/faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mixloop {
+namespace {
+
+using Kind = Fault::Kind;
+using Target = Fault::Target;
+
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kLatest = std::int64_t{1} << 53;  // whole numbers are exact up to here
+constexpr double kMostDelayTicks = 10000;
+
+double longest_delay(double rate_hz) { return std::min(Faults::kLongestDelay, kMostDelayTicks / rate_hz); }
+
+}  // namespace
+
+bool FaultSettings::random() const {
+  return std::any_of(scheduled.begin(), scheduled.end(), [](const Fault& fault) {
+    return fault.kind == Kind::garbage || fault.kind == Kind::intermittent;
+  });
+}
+
+bool FaultSettings::change_friction() const {
+  return injected || std::any_of(scheduled.begin(), scheduled.end(),
+                                 [](const Fault& fault) { return fault.target == Target::friction; });
+}
+
+bool may_change(const Scene& scene, int parameter) {
+  const auto uses = [&](const Formula& formula) {
+    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Formula::Node& node) {
+      return node.op == Formula::Operator::kSymbol && node.symbol == Symbols::kParameter0 + parameter;
+    });
+  };
+  for (const auto& coordinate : scene.coordinates)
+    if (uses(coordinate.constraint)) return false;
+  for (const auto& transform : scene.transforms)
+    if (uses(transform.theta) || uses(transform.s) || uses(transform.a) || uses(transform.alpha)) return false;
+  return std::none_of(scene.end_effector.point.begin(), scene.end_effector.point.end(), uses);
+}
+
+const char* objection(const Fault& fault, const Scene& scene, double rate_hz) {
+  const double magnitude = fault.magnitude;
+  if (!std::isfinite(magnitude) || !std::isfinite(fault.at) || !std::isfinite(fault.duration))
+    return "a number is not finite";
+  if (fault.at < 0 || fault.duration < 0) return "a time is negative";
+  if (fault.target > Target::friction) return "there is no such target";
+  const auto count = static_cast<int>(fault.target == Target::parameter ? scene.parameters.size() : scene.motors.size());
+  if (fault.target != Target::friction && fault.index >= count) return "there is no such motor, sensor or parameter";
+  if (fault.index < (fault.target == Target::parameter ? 0 : -1)) return "the index is negative";
+  if (fault.target == Target::parameter || fault.target == Target::friction) {
+    if (fault.kind != Kind::changed && fault.kind != Kind::none) return "parameters and friction can only be changed";
+    if (fault.kind == Kind::none) return nullptr;
+    if (fault.target == Target::friction) return magnitude < 0 ? "the factor on friction is negative" : nullptr;
+    if (!may_change(scene, fault.index)) return "the mechanism's geometry depends on the parameter: it can't jump in a run";
+    const auto index = static_cast<std::size_t>(fault.index);
+    return scene.parameters[index].dimension.same_powers(kMass) && magnitude < 0 ? "the mass is negative" : nullptr;
+  }
+  if (fault.kind == Kind::garbage && magnitude <= 0) return "the magnitude of garbage is not positive";
+  if (fault.kind == Kind::slow && magnitude <= 0) return "the time constant is not positive";
+  if (fault.kind == Kind::delayed && !(magnitude > 0 && magnitude <= longest_delay(rate_hz) * (1 + 1e-9)))
+    return "the dead time is not within 0 to 1 s and 10000 ticks";
+  if (fault.kind == Kind::intermittent && !(magnitude > 0 && magnitude <= 1))
+    return "the share of time that it is off is not within 0 to 1";
+  return fault.kind > Kind::intermittent ? "motors and sensors have no such kind" : nullptr;
+}
+
+FaultFilter::FaultFilter(Chance chance, std::size_t channel, Draw draw, double rate_hz)
+    : chance_(chance),
+      channel_(channel),
+      draw_(draw),
+      rate_hz_(rate_hz),
+      ring_(static_cast<std::size_t>(std::ceil(longest_delay(rate_hz) * rate_hz)) + 1) {}
+
+void FaultFilter::start(Kind kind, double magnitude) {
+  kind_ = kind;
+  magnitude_ = magnitude;
+  begun_ = false;
+  if (kind == Kind::delayed) {
+    delay_ = std::clamp<std::int64_t>(std::llround(magnitude * rate_hz_), 1, static_cast<std::int64_t>(ring_.size()) - 1);
+    filled_ = 0;
+  }
+}
+
+double FaultFilter::pass(std::int64_t tick, double value) {
+  const bool first_ever = tick_ < 0;
+  if (tick != tick_) {
+    before_ = first_ever ? value : out_;
+    tick_ = tick;
+    ++filled_;
+  }
+  if (!begun_) {  // what it keeps or comes from is the last value before
+    held_ = before_;
+    begun_ = true;
+    filled_ = 1;
+  }
+  return out_ = filtered(value);
+}
+
+double FaultFilter::filtered(double value) {
+  switch (kind_) {
+    case Kind::off:
+      return 0;
+    case Kind::stuck:
+      return held_;
+    case Kind::garbage:
+      return magnitude_ * (2 * chance_.uniform(tick_, channel_, draw_) - 1);
+    case Kind::wrong:
+      return value + magnitude_;
+    case Kind::slow:  // T y' = u - y over a tick, u what it is now
+      return before_ - std::expm1(-1 / (magnitude_ * rate_hz_)) * (value - before_);
+    case Kind::delayed: {
+      const auto size = static_cast<std::int64_t>(ring_.size());
+      ring_[static_cast<std::size_t>(tick_ % size)] = value;
+      return filled_ <= delay_ ? held_ : ring_[static_cast<std::size_t>((tick_ - delay_) % size)];
+    }
+    case Kind::intermittent:
+      return chance_.uniform(tick_, channel_, draw_) < magnitude_ ? 0 : value;
+    case Kind::none:
+    case Kind::changed:
+      break;
+  }
+  return value;
+}
+
+Faults::Faults(const FaultSettings& settings, std::uint64_t seed, const Scene& scene, double rate_hz,
+               std::vector<double> values)
+    : rate_hz_(rate_hz),
+      n_(scene.motors.size()),
+      until_(2 * n_ + values.size() + 1, kNever),
+      normal_(values),
+      values_(std::move(values)) {
+  const Chance chance(seed);
+  for (std::size_t i = 0; i < n_; ++i) {
+    motors_.emplace_back(chance, i, Draw::motor_fault, rate_hz);
+    positions_.emplace_back(chance, i, Draw::position_fault, rate_hz);
+    velocities_.emplace_back(chance, i, Draw::velocity_fault, rate_hz);
+  }
+  waiting_.reserve(settings.scheduled.size() + kWaiting);
+  for (const Fault& fault : settings.scheduled) queue(fault, 0);
+}
+
+/// The first tick at or after a time.
+std::int64_t Faults::tick_at(double time) const {
+  const double ticks = time * rate_hz_;
+  return ticks < static_cast<double>(kLatest) ? static_cast<std::int64_t>(std::ceil(ticks - 1e-9 * std::max(1.0, ticks)))
+                                              : kLatest;
+}
+
+void Faults::queue(const Fault& fault, std::int64_t earliest) {
+  const Scheduled next{std::max(tick_at(fault.at), earliest), fault};
+  waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), next,
+                                   [](const auto& a, const auto& b) { return a.tick < b.tick; }),
+                  next);
+}
+
+bool Faults::inject(const Fault& fault, const Scene& scene, std::int64_t tick) {
+  if (waiting_.size() == waiting_.capacity() || objection(fault, scene, rate_hz_)) return false;
+  queue(fault, tick);
+  begin(tick);
+  return true;
+}
+
+void Faults::begin(std::int64_t tick) {
+  bool changed = false;
+  for (std::size_t slot = 0; slot < until_.size(); ++slot)
+    if (until_[slot] <= tick) changed = start(healing(slot), kNever) || changed;
+  std::size_t due = 0;
+  for (; due < waiting_.size() && waiting_[due].tick <= tick; ++due) {
+    const Fault& fault = waiting_[due].fault;
+    const double from = std::max(fault.at, static_cast<double>(tick) / rate_hz_);
+    changed = start(fault, fault.duration > 0 ? tick_at(from + fault.duration) : kNever) || changed;
+  }
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(due));
+  if (changed) changed_ = tick;
+  active_ = any_active();
+}
+
+Fault Faults::healing(std::size_t slot) const {
+  const auto index = [](std::size_t i) { return static_cast<int>(i); };
+  if (slot < n_) return {.target = Target::motor, .index = index(slot)};
+  if (slot < 2 * n_) return {.target = Target::sensor, .index = index(slot - n_)};
+  if (slot + 1 < until_.size()) return {.target = Target::parameter, .index = index(slot - 2 * n_)};
+  return {.target = Target::friction};
+}
+
+bool Faults::start(const Fault& fault, std::int64_t until) {
+  const bool heals = fault.kind == Kind::none;
+  if (fault.target == Target::friction) {
+    friction_ = heals ? 1 : fault.magnitude;
+    until_.back() = until;
+    return true;
+  }
+  if (fault.target == Target::parameter) {
+    const auto i = static_cast<std::size_t>(fault.index);
+    values_[i] = heals ? normal_[i] : fault.magnitude;
+    until_[2 * n_ + i] = until;
+    return true;
+  }
+  for (std::size_t i = 0; i < n_; ++i) {
+    if (fault.index >= 0 && static_cast<std::size_t>(fault.index) != i) continue;
+    if (fault.target == Target::motor) {
+      motors_[i].start(fault.kind, fault.magnitude);
+      until_[i] = until;
+      continue;
+    }
+    positions_[i].start(fault.kind, fault.magnitude);
+    // Who counts from a wrong zero has the right velocity.
+    velocities_[i].start(fault.kind == Kind::wrong ? Kind::none : fault.kind, fault.magnitude);
+    until_[n_ + i] = until;
+  }
+  return false;
+}
+
+bool Faults::any_active() const {
+  const auto active = [](const FaultFilter& filter) { return filter.active(); };
+  return friction_ != 1 || values_ != normal_ || std::any_of(motors_.begin(), motors_.end(), active) ||
+         std::any_of(positions_.begin(), positions_.end(), active);
+}
+
+}  // namespace mixloop

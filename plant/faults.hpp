@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dynamics/scene/scene.hpp"
+#include "notation/document.hpp"
+#include "plant/chance.hpp"
+
+namespace mixloop {
+
+/// Something that goes wrong. It begins with the first tick at or after `at` and ends with the first one at or after
+/// `at + duration`; on the same target a later fault takes an earlier one's place.
+struct Fault {
+  /// As fault_t's TARGET constants: what acts, what is measured, a parameter of the scene, friction.
+  enum class Target : std::uint8_t { motor, sensor, parameter, friction };
+  /// As fault_t's KIND constants.
+  enum class Kind : std::uint8_t { none, off, stuck, garbage, wrong, slow, delayed, intermittent, changed };
+
+  Target target = Target::motor;
+  Kind kind = Kind::none;  ///< none heals
+  int index = -1;          ///< of the motor, sensor or parameter, from 0; -1: all motors or sensors
+  double magnitude = 0;    ///< N m, N, rad, m, s, a share of time, the parameter's value or a factor, as the kind has it
+  double at = 0;           ///< s of plant time; what has passed: at once
+  double duration = 0;     ///< s; 0: until healed
+};
+
+/// What may happen to a plant.
+struct FaultSettings {
+  std::vector<Fault> scheduled;
+  bool injected = false;  ///< more may come by Plant::inject
+  bool any() const { return injected || !scheduled.empty(); }
+  bool change_friction() const;  ///< they may
+  bool random() const;  ///< a scheduled one draws random numbers
+};
+
+/// Reads the list `[{at, for, motor | sensor | parameter | friction, kind, magnitude | value}, ...]`. `friction`: there
+/// is some that can change; `values`: the plant's parameters.
+std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool friction, double rate_hz,
+                               const std::vector<double>& values);
+
+/// Whether a parameter's change can happen in a run: not where the mechanism's geometry depends on it.
+bool may_change(const Scene& scene, int parameter);
+
+/// Why a fault can't be, in words; null where it can.
+const char* objection(const Fault& fault, const Scene& scene, double rate_hz);
+
+/// One scalar's way through a fault, tick by tick. Within a tick it may be asked again, with another value: the last
+/// one counts.
+class FaultFilter {
+ public:
+  FaultFilter(Chance chance, std::size_t channel, Draw draw, double rate_hz);
+
+  /// From the tick in hand on.
+  void start(Fault::Kind kind, double magnitude);
+  bool active() const { return kind_ != Fault::Kind::none; }
+
+  double pass(std::int64_t tick, double value);
+
+ private:
+  double filtered(double value);
+
+  Chance chance_;
+  std::size_t channel_;
+  Draw draw_;
+  double rate_hz_;
+  Fault::Kind kind_ = Fault::Kind::none;
+  double magnitude_ = 0;
+  std::int64_t tick_ = -1, delay_ = 0, filled_ = 0;
+  double out_ = 0, before_ = 0, held_ = 0;  ///< of this tick, at the last one's end, when the fault began
+  bool begun_ = false;                      ///< the fault has met its first value
+  std::vector<double> ring_;                ///< of kind delayed, by tick
+};
+
+/// The faults of a plant: a schedule, and what it has brought about. Nothing allocates after construction.
+class Faults {
+ public:
+  /// So many injected faults may wait for their time.
+  static constexpr std::size_t kWaiting = 64;
+  /// The longest dead time of a fault, s; at fast rates less, see objection.
+  static constexpr double kLongestDelay = 1;
+
+  /// `values`: the plant's parameters as it begins.
+  Faults(const FaultSettings& settings, std::uint64_t seed, const Scene& scene, double rate_hz,
+         std::vector<double> values);
+
+  /// False: it can't be, or too many wait.
+  bool inject(const Fault& fault, const Scene& scene, std::int64_t tick);
+  /// Begins and ends what is due.
+  void begin(std::int64_t tick);
+
+  double torque(std::size_t i, std::int64_t tick, double value) { return motors_[i].pass(tick, value); }
+  double position(std::size_t i, std::int64_t tick, double value) { return positions_[i].pass(tick, value); }
+  double velocity(std::size_t i, std::int64_t tick, double value) { return velocities_[i].pass(tick, value); }
+
+  bool active() const { return active_; }              ///< anything, at the tick last begun
+  std::int64_t changed_at() const { return changed_; }  ///< the last tick at which parameters or friction changed; -1
+  std::span<const double> parameters() const { return values_; }
+  double friction() const { return friction_; }
+
+ private:
+  struct Scheduled {
+    std::int64_t tick;
+    Fault fault;
+  };
+  void queue(const Fault& fault, std::int64_t earliest);
+  Fault healing(std::size_t slot) const;
+  /// True where parameters or friction change.
+  bool start(const Fault& fault, std::int64_t until);
+  bool any_active() const;
+  std::int64_t tick_at(double time) const;
+
+  double rate_hz_;
+  std::size_t n_;
+  std::vector<Scheduled> waiting_;  ///< in the order of their ticks
+  std::vector<FaultFilter> motors_, positions_, velocities_;
+  std::vector<std::int64_t> until_;  ///< of motors, sensors, parameters, friction: the tick that ends the fault
+  std::vector<double> normal_, values_;
+  double friction_ = 1;
+  bool active_ = false;
+  std::int64_t changed_ = -1;
+};
+
+}  // namespace mixloop

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "plant/hardware.hpp"
+
+#include <fmt/format.h>
+
+namespace mixloop {
+
+Hardware::Hardware(const PlantSettings& settings, const Dynamics& dynamics, double rate_hz)
+    : asked_(Vector::Zero(dynamics.n())), faulted_(asked_) {
+  const auto n = static_cast<std::size_t>(dynamics.n());
+  const Scene& scene = dynamics.scene();
+  const std::vector<double> values = settings.parameters.empty() ? scene.default_parameters() : settings.parameters;
+  if (settings.actuators.any()) actuators.emplace(settings.actuators, n);
+  if (settings.sensors.any() || settings.faults.any()) sensors.emplace(settings.sensors, settings.seed, n, rate_hz);
+  if (!settings.faults.any()) return;
+  faults.emplace(settings.faults, settings.seed, scene, rate_hz, values);
+  if (settings.faults.change_friction() && has_damping(scene))
+    scene_friction.emplace(scene, values, dynamics.evaluation(), facts(settings.integrator).jacobian);
+}
+
+std::span<const double> Hardware::through_faults(std::int64_t tick, std::span<const double> tau) {
+  if (tau.data() != asked_.data()) asked_ = map_of(tau);
+  was_asked_ = true;
+  if (!faults) return asked();
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    faulted_[static_cast<Eigen::Index>(i)] = faults->torque(i, tick, tau[i]);
+  return span_of(std::as_const(faulted_));
+}
+
+void check_hardware(const PlantSettings& settings, const NodePtr& entry, const NodePtr& faults) {
+  const auto refuse = [&](const char* key, const std::string& why) {
+    throw InputError("out_of_range", (entry ? find_entry(*entry, key) : faults)->place, why);
+  };
+  const ActuatorSettings& actuators = settings.actuators;
+  if (actuators.any() && facts(settings.integrator).jacobian)
+    refuse("actuators", fmt::format("{} takes the Jacobian of ideal drives; expected another integrator",
+                                    facts(settings.integrator).name));
+  if (!settings.continuous) return;
+  if (settings.sensors.any())
+    refuse("sensors", "with control: continuous the control law sees every stage, and sensors have a sample a tick; "
+                      "expected control: held");
+  if (actuators.has_memory())
+    refuse("actuators", "with control: continuous no torque stays for a rate limit or a lag to follow; expected "
+                        "control: held, or ripple and friction alone");
+  for (const Fault& fault : settings.faults.scheduled)
+    if (fault.target == Fault::Target::motor || fault.target == Fault::Target::sensor)
+      throw InputError("out_of_range", faults->place,
+                       "with control: continuous motors and sensors have no ticks for a fault to go by; expected "
+                       "control: held, or parameters and friction alone");
+}
+
+}  // namespace mixloop

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "dynamics/scene/check_physical.hpp"
+#include "notation/value.hpp"
+#include "plant/faults.hpp"
+
+namespace mixloop {
+namespace {
+
+using Kind = Fault::Kind;
+using Target = Fault::Target;
+
+/// What a fault's magnitude is.
+enum class Magnitude : std::uint8_t { none, value, time, share };
+
+Magnitude magnitude_of(Kind kind) {
+  switch (kind) {
+    case Kind::garbage:
+    case Kind::wrong:
+      return Magnitude::value;
+    case Kind::slow:
+    case Kind::delayed:
+      return Magnitude::time;
+    case Kind::intermittent:
+      return Magnitude::share;
+    default:
+      return Magnitude::none;
+  }
+}
+
+class Reader {
+ public:
+  Reader(const Scene& scene, bool friction, double rate_hz, const std::vector<double>& values)
+      : scene_(scene), friction_(friction), rate_hz_(rate_hz), values_(values) {}
+
+  Fault read(const NodePtr& node) const {
+    const Mapping entry(node, "a fault",
+                        {"at", "for", "motor", "sensor", "parameter", "friction", "kind", "magnitude", "value"});
+    const NodePtr motor = entry.find("motor"), sensor = entry.find("sensor"), parameter = entry.find("parameter"),
+                  friction = entry.find("friction");
+    if (!motor + !sensor + !parameter + !friction != 3)
+      throw InputError("missing_key", node->place,
+                       "a fault is one thing's; expected one of motor, sensor, parameter, friction");
+    Fault fault;
+    if (motor || sensor)
+      read_channel(entry, motor ? motor : sensor, motor != nullptr, fault);
+    else
+      read_change(entry, parameter, friction, fault);
+    fault.at = number_of(*entry.at("at"), kTime, "when a fault begins");
+    if (fault.at < 0) throw InputError("out_of_range", entry.at("at")->place, "a fault before tick 0; expected 0 s or later");
+    if (const NodePtr length = entry.find("for")) {
+      fault.duration = number_of(*length, kTime, "how long a fault lasts");
+      if (!(fault.duration > 0))
+        throw InputError("out_of_range", length->place, "a fault that doesn't last; without 'for' it stays");
+    }
+    if (const char* reason = objection(fault, scene_, rate_hz_))
+      throw InputError("out_of_range", culprit(entry)->place, reason);
+    return fault;
+  }
+
+ private:
+  static NodePtr culprit(const Mapping& entry) {
+    for (const char* key : {"magnitude", "value", "friction", "parameter", "kind"})
+      if (NodePtr node = entry.find(key)) return node;
+    return entry.at("at");
+  }
+
+  static void refuse(const Mapping& entry, std::initializer_list<const char*> keys, const char* why) {
+    for (const char* key : keys)
+      if (const NodePtr node = entry.find(key)) throw InputError("unknown_key", node->place, fmt::format("'{}' {}", key, why));
+  }
+
+  /// A motor's name, its number from 1 (psi_1 in trajectory.csv), or `all`.
+  int read_index(const Node& node) const {
+    const std::string& text = text_of(node, "a motor");
+    if (text == "all") return -1;
+    for (std::size_t i = 0; i < scene_.motors.size(); ++i)
+      if (scene_.motors[i].name == text) return static_cast<int>(i);
+    if (text.find_first_not_of("0123456789") == std::string::npos)
+      return static_cast<int>(whole_number_of(node, 1, scene_.n(), "the number of a motor")) - 1;
+    std::vector<std::string> words{"all"};
+    for (const auto& motor : scene_.motors) words.push_back(motor.name);
+    word_of(node, words, "the motor");  // throws
+    return -1;
+  }
+
+  void read_channel(const Mapping& entry, const NodePtr& which, bool motor, Fault& fault) const {
+    refuse(entry, {"value"}, "belongs to a parameter; expected kind and magnitude");
+    fault.target = motor ? Target::motor : Target::sensor;
+    fault.index = read_index(*which);
+    static const std::vector<std::string> kKinds = {"none",  "off",  "stuck",   "garbage",
+                                                    "wrong", "slow", "delayed", "intermittent"};
+    fault.kind = static_cast<Kind>(word_of(*entry.at("kind"), kKinds, "the kind of fault"));
+    const Magnitude what = magnitude_of(fault.kind);
+    if (what == Magnitude::none) return refuse(entry, {"magnitude"}, "says nothing with this kind of fault");
+    const bool linear = scene_.motors[static_cast<std::size_t>(std::max(fault.index, 0))].linear;
+    const Dimension value = motor ? (linear ? kForce : kMoment) : (linear ? kLength : kPure);
+    const Dimension wanted = what == Magnitude::value ? value : what == Magnitude::time ? kTime : kPure;
+    fault.magnitude = number_of(*entry.at("magnitude"), wanted, "the magnitude of a fault");
+  }
+
+  void read_change(const Mapping& entry, const NodePtr& parameter, const NodePtr& friction, Fault& fault) const {
+    refuse(entry, {"kind", "magnitude"}, "belongs to a motor or sensor");
+    fault.kind = Kind::changed;
+    if (friction) {
+      refuse(entry, {"value"}, "belongs to a parameter; friction has its factor");
+      fault.target = Target::friction;
+      fault.magnitude = number_of(*friction, kPure, "the factor on friction");
+      if (!friction_)
+        throw InputError("out_of_range", friction->place,
+                         "neither the scene nor plant.actuators has friction that could change");
+      return;
+    }
+    fault.target = Target::parameter;
+    std::vector<std::string> names;
+    for (const auto& known : scene_.parameters) names.push_back(known.name);
+    const std::size_t index = word_of(*parameter, names, "the parameter");
+    fault.index = static_cast<int>(index);
+    if (!may_change(scene_, fault.index))
+      throw InputError("out_of_range", parameter->place,
+                       "the mechanism's geometry depends on '" + names[index] + "', so it can't jump in a run");
+    const NodePtr value = entry.at("value");
+    fault.magnitude = number_of(*value, scene_.parameters[index].dimension, "the parameter's new value");
+    auto changed = values_;
+    changed[index] = fault.magnitude;
+    try {
+      check_physical(scene_, changed);
+    } catch (const InputError& error) {
+      throw InputError(error.code, value->place, "with this value, " + error.message);
+    }
+  }
+
+  const Scene& scene_;
+  bool friction_;
+  double rate_hz_;
+  const std::vector<double>& values_;
+};
+
+}  // namespace
+
+std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool friction, double rate_hz,
+                               const std::vector<double>& values) {
+  const Reader reader(scene, friction, rate_hz, values);
+  std::vector<Fault> faults;
+  if (node->kind == Node::Kind::kEmpty) return faults;
+  if (node->kind != Node::Kind::kSequence)
+    throw InputError("wrong_kind", node->place, "the faults are " + describe(*node) + "; expected a list");
+  for (const auto& item : node->items) faults.push_back(reader.read(item));
+  return faults;
+}
+
+}  // namespace mixloop

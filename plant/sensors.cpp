@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "plant/sensors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "notation/value.hpp"
+#include "plant/each_motor.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr Range kNotNegative{0, kNoLimit, "0 or more"};
+constexpr double kLongestDelay = 1;          // s
+constexpr std::int64_t kMostDelayTicks = 10000;
+
+std::vector<std::int64_t> whole_ticks(const NodePtr& node, const Scene& scene, double rate_hz) {
+  std::vector<std::int64_t> ticks;
+  for (const double delay :
+       read_each_motor(node, scene, kTime, kTime, {0, kLongestDelay, "0 to 1 s"}, "the sensors' delay")) {
+    const double exactly = delay * rate_hz;
+    ticks.push_back(std::llround(exactly));
+    if (std::abs(exactly - std::round(exactly)) > 1e-9 * std::max(1.0, exactly))
+      throw InputError("out_of_range", node->place,
+                       fmt::format("the sensors' delay is {:g} ticks; expected whole ticks of {:g} s", exactly, 1 / rate_hz));
+    if (ticks.back() > kMostDelayTicks)
+      throw InputError("out_of_range", node->place,
+                       fmt::format("the sensors' delay is {} ticks; expected up to {}", ticks.back(), kMostDelayTicks));
+  }
+  return ticks;
+}
+
+}  // namespace
+
+SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, double rate_hz) {
+  const Mapping entry(node, "the sensors",
+                      {"resolution", "noise", "bias", "delay", "drop", "velocity", "velocity_filter"});
+  const auto positions = [&](const char* key, const Range& range, const char* what) {
+    return read_each_motor(entry.find(key), scene, kPure, kLength, range, what);
+  };
+  SensorSettings settings;
+  settings.resolution = positions("resolution", kNotNegative, "the resolution");
+  settings.noise = positions("noise", kNotNegative, "the noise");
+  settings.bias = positions("bias", {-kNoLimit, kNoLimit, "a finite value"}, "the bias");
+  settings.delay = whole_ticks(entry.find("delay"), scene, rate_hz);
+  settings.drop = read_each_motor(entry.find("drop"), scene, kPure, kPure, {0, 1, "a probability, 0 to 1"},
+                                  "the share of readings that are dropped");
+  if (const NodePtr velocity = entry.find("velocity"))
+    settings.differentiated = word_of(*velocity, {"measured", "differentiated"}, "the velocity") == 1;
+  if (const NodePtr filter = entry.find("velocity_filter")) {
+    if (!settings.differentiated)
+      throw InputError("unknown_key", filter->place, "velocity_filter belongs to velocity: differentiated");
+    settings.velocity_filter = number_of(*filter, kFrequency, "the velocity's low-pass");
+    if (!(settings.velocity_filter > 0))
+      throw InputError("out_of_range", filter->place,
+                       fmt::format("the velocity's low-pass is {:g} Hz; expected a positive frequency",
+                                   settings.velocity_filter));
+  }
+  return settings;
+}
+
+Sensors::Sensors(const SensorSettings& settings, std::uint64_t seed, std::size_t n, double rate_hz)
+    : chance_(seed),
+      rate_hz_(rate_hz),
+      differentiated_(settings.differentiated),
+      // T y' = u - y over a tick, T = 1 / (2 pi f)
+      share_(settings.velocity_filter > 0 ? -std::expm1(-2 * std::numbers::pi * settings.velocity_filter / rate_hz)
+                                          : 1) {
+  const auto value = [](const auto& values, std::size_t i) { return values.empty() ? 0 : values[i]; };
+  for (std::size_t i = 0; i < n; ++i) {
+    Channel channel{.resolution = value(settings.resolution, i),
+                    .noise = value(settings.noise, i),
+                    .bias = value(settings.bias, i),
+                    .drop = value(settings.drop, i),
+                    .delay = static_cast<std::size_t>(value(settings.delay, i))};
+    channel.positions.resize(channel.delay + 1);
+    channel.velocities.resize(channel.delay + 1);
+    channels_.push_back(std::move(channel));
+  }
+}
+
+bool Sensors::measure(std::int64_t tick, std::span<const double> psi, std::span<const double> psid, Faults* faults,
+                      std::span<double> psi_out, std::span<double> psid_out) {
+  const bool again = tick == tick_;
+  if (!again) stale_ = false;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    Channel& channel = channels_[i];
+    if (!again && read(channel, i, tick, psi[i], psid[i], faults)) stale_ = true;
+    psi_out[i] = channel.position;
+    psid_out[i] = channel.velocity;
+  }
+  tick_ = tick;
+  return stale_;
+}
+
+bool Sensors::read(Channel& channel, std::size_t i, std::int64_t tick, double psi, double psid, Faults* faults) {
+  const bool first = tick_ < 0;
+  double position = psi + channel.bias;
+  if (channel.noise > 0) position += channel.noise * chance_.normal(tick, i, Draw::noise);
+  if (channel.resolution > 0) position = channel.resolution * std::nearbyint(position / channel.resolution);
+  if (faults) position = faults->position(i, tick, position);
+  double velocity = psid;
+  if (differentiated_) {
+    const double difference = first ? 0 : (position - channel.before) * rate_hz_;
+    channel.filtered = share_ < 1 ? channel.filtered + share_ * (difference - channel.filtered) : difference;
+    velocity = channel.filtered;
+    channel.before = position;
+  } else if (faults) {
+    velocity = faults->velocity(i, tick, velocity);
+  }
+  const std::size_t size = channel.delay + 1, slot = static_cast<std::size_t>(tick) % size;
+  if (first) {
+    std::fill(channel.positions.begin(), channel.positions.end(), position);
+    std::fill(channel.velocities.begin(), channel.velocities.end(), velocity);
+  }
+  channel.positions[slot] = position;
+  channel.velocities[slot] = velocity;
+  if (!first && channel.drop > 0 && chance_.uniform(tick, i, Draw::drop) < channel.drop) return true;
+  channel.position = channel.positions[(slot + 1) % size];  // the oldest
+  channel.velocity = channel.velocities[(slot + 1) % size];
+  return false;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "plant/chance.hpp"
+#include "plant/faults.hpp"
+
+namespace mixloop {
+
+/// What lies between the motors' positions and what is said of them. Vectors have a value a motor, in rad or m; empty:
+/// not so.
+struct SensorSettings {
+  std::vector<double> resolution;  ///< readings are whole multiples of it, the nearest
+  std::vector<double> noise;       ///< standard deviation of a normal one, before rounding
+  std::vector<double> bias;
+  std::vector<std::int64_t> delay;  ///< ticks
+  std::vector<double> drop;         ///< probability that a tick's reading isn't delivered: the last one stays
+  bool differentiated = false;      ///< the velocity is the position's difference over a tick
+  double velocity_filter = 0;       ///< Hz, of a first-order low-pass after it; 0: none
+
+  bool any() const {
+    return !resolution.empty() || !noise.empty() || !bias.empty() || !delay.empty() || !drop.empty() || differentiated;
+  }
+  bool random() const { return !noise.empty() || !drop.empty(); }
+};
+
+/// Reads `{resolution, noise, bias, delay, drop, velocity: measured | differentiated, velocity_filter}`.
+SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, double rate_hz);
+
+/// The sensors: of psi a reading, psi + bias + noise rounded to the resolution and through the sensor's fault; of psi'
+/// the true one, or the reading's difference over a tick, low-passed; both `delay` ticks old; the last ones again where
+/// they aren't delivered. Nothing allocates after construction.
+class Sensors {
+ public:
+  Sensors(const SensorSettings& settings, std::uint64_t seed, std::size_t n, double rate_hz);
+
+  /// At each tick, in order (the same one again gives the same); true where a reading is stale. The first tick's are
+  /// always delivered, and stand for what is older. `faults` may be null.
+  bool measure(std::int64_t tick, std::span<const double> psi, std::span<const double> psid, Faults* faults,
+               std::span<double> psi_out, std::span<double> psid_out);
+
+ private:
+  struct Channel {
+    double resolution, noise, bias, drop;
+    std::size_t delay;
+    double before = 0, filtered = 0;        ///< the last tick's reading, the low-passed velocity
+    std::vector<double> positions, velocities;  ///< rings by tick
+    double position = 0, velocity = 0;      ///< as delivered last
+  };
+  /// True where it isn't delivered.
+  bool read(Channel& channel, std::size_t i, std::int64_t tick, double psi, double psid, Faults* faults);
+
+  Chance chance_;
+  double rate_hz_;
+  bool differentiated_;
+  double share_;  ///< of the new value in the low-pass
+  std::vector<Channel> channels_;
+  std::int64_t tick_ = -1;
+  bool stale_ = false;
+};
+
+}  // namespace mixloop
