@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   app.add_flag("--paused", options.paused, "begin paused, at tick 0; see mixloop control");
   app.add_flag("--hold", options.hold, "go on holding the end point until stopped");
   app.add_flag("--truth", options.truth, "publish TRUTH, which no controller may read");
+  app.add_flag("--allow-faults", options.allow_faults, "obey FAULT messages: mixloop control fault");
   app.add_option("--out", options.out, "keep result.json and trajectory.csv in this folder")
       ->type_name("DIR");
   app.add_option("--report-fd", options.report_fd, "tell `mixloop run` over this file descriptor")->group("");

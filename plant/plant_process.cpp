@@ -47,12 +47,14 @@ PlantSession::PlantSession(const PlantLine& line, const Experiment& experiment, 
       hardware_(make_deadline_plant(experiment, plan)),
       recorder_(experiment, plan),
       truth_(experiment, recorder_),
-      report_(report) {}
+      report_(report),
+      faults_(experiment.scene->n()) {}
 
 Ending PlantSession::run(Bus& bus, const StopSwitch& stop, std::int64_t session, std::int64_t next_session) {
   const Plant& plant = hardware_.plant();
   if (!recorder_.state(0, plant.psi(), plant.psid(), plant.work()))
     throw RunFault("diverged", "the start is already farther from the path than limits.position_error");
+  if (line_.allow_faults) bus.subscribe<&PlantSession::on_fault>(bus.channel("FAULT"), this);
   if (!line_.real_time) {
     LockstepPlant lockstep(bus, stop, options(session), side());
     return drive(lockstep, next_session);
@@ -148,6 +150,22 @@ void PlantSession::note_faults(std::int64_t k) {
   fault_ = faults && faults->active();
 }
 
+/// A fault of the operator's, for this session. A repeated one is taken once; what can't be is left alone.
+void PlantSession::on_fault(Bytes bytes) {
+  if (faults_.read(bytes)) return;
+  const fault_t& m = faults_.message;
+  if (bus_ == nullptr || m.session != bus_->session || m.seq <= fault_count_) return;
+  if (m.target < fault_t::TARGET_MOTOR || m.target > fault_t::TARGET_FRICTION) return;
+  if (m.kind < fault_t::KIND_NONE || m.kind > fault_t::KIND_CHANGED) return;
+  fault_count_ = m.seq;
+  hardware_.plant().inject({.target = static_cast<Fault::Target>(m.target),
+                            .kind = static_cast<Fault::Kind>(m.kind),
+                            .index = m.index,
+                            .magnitude = m.magnitude,
+                            .at = 1e-6 * static_cast<double>(m.utime),
+                            .duration = m.duration});
+}
+
 void PlantSession::make_safe(const char* cause) {
   if (hardware_.safe()) return;
   hardware_.make_safe(cause);
@@ -230,7 +248,8 @@ void PlantSession::finish(const RunFault* fault) {
 int run_plant_process(const PlantLine& line) {
   StopSwitch stop;
   stop.turn_on_signals();
-  const Experiment loaded = line.load();
+  Experiment loaded = line.load();
+  loaded.plant.faults.injected = line.allow_faults;
   const Plan plan = make_plan(loaded);
   const Experiment experiment = with_integrator_settled(loaded, plan);
   ReportLine report(line.report_fd);

@@ -18,6 +18,7 @@ struct PlantLine : PeerLine {
   bool paused = false;
   bool truth = false;
   bool hold = false;
+  bool allow_faults = false;  ///< obey FAULT
   int report_fd = -1;
 };
 
@@ -40,6 +41,7 @@ class PlantSession {
   bool tick_over(std::int64_t k);
   void make_safe(const char* cause);
   void note_faults(std::int64_t k);
+  void on_fault(Bytes bytes);
   void add_deadlines(nlohmann::json& result) const;
   void fill(std::int64_t k, truth_t& message);
   template <class Loop>
@@ -53,6 +55,8 @@ class PlantSession {
   TruthReader truth_;
   ReportLine& report_;
   const PlantReport* bus_ = nullptr;
+  Inbox<fault_t> faults_;
+  std::int64_t fault_count_ = -1;  ///< of the sender's own count, the latest
   bool fault_ = false;  ///< something was wrong at the tick last commanded
   bool finished_ = false;
   int status_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "loop/result.hpp"
 #include "notation/errors.hpp"
 #include "tools/bus_line.hpp"
@@ -16,6 +18,9 @@ struct Options {
   bool json = false;
   std::int64_t steps = 1;
   std::string speed;
+  std::string target, kind;
+  int index = 0;
+  double magnitude = 0, duration = 0;
 };
 
 /// Hears which plant there is, so that it can be told something.
@@ -70,6 +75,40 @@ int send(const Options& options, std::int8_t action, double speed) {
   return kHeld;
 }
 
+int send_fault(const Options& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  Bus bus(options.bus);
+  PlantSought plant(bus);
+  const Header heard = plant.wait(bus, nanoseconds(static_cast<std::int64_t>(options.patience * 1e9)), stop);
+  static const std::vector<std::string> kTargets = {"motor", "sensor", "payload", "friction"};
+  static const std::vector<std::string> kKinds = {"none", "off",     "stuck",        "garbage", "wrong",
+                                                  "slow", "delayed", "intermittent", "changed"};
+  const auto index = [](const std::vector<std::string>& words, const std::string& word) {
+    return static_cast<std::int8_t>(std::find(words.begin(), words.end(), word) - words.begin());
+  };
+  Outbox<fault_t> fault(heard.n);
+  Header header = heard;
+  header.utime = 0;
+  // The clock is a count that grows from call to call.
+  header.seq = std::chrono::duration_cast<std::chrono::microseconds>(now()).count();
+  set_header(fault.message, header);
+  fault.message.target = index(kTargets, options.target);
+  fault.message.kind = index(kKinds, options.kind);
+  fault.message.index = options.index - 1;
+  fault.message.magnitude = options.magnitude;
+  fault.message.duration = options.duration;
+  fault.encode();
+  for (int i = 0; i < 3; ++i) bus.publish(bus.channel("FAULT"), fault.encoded());
+  if (options.json)
+    print_json({{"session", heard.session}, {"tick", heard.seq}});
+  else
+    fmt::print(
+        "sent to the plant of session {}, at tick {}; it obeys if it was started with --allow-faults\n",
+        heard.session, heard.seq);
+  return kHeld;
+}
+
 /// STOP is honoured from anyone: no plant need be heard.
 int send_stop(const Options& options) {
   Bus bus(options.bus);
@@ -115,6 +154,22 @@ void add_control_command(CLI::App& app, int& status) {
       [options] { return send(*options, sim_control_t::ACTION_RESET, 0); });
   add("stop", "ends the run: whoever hears it stops, whatever session it is of",
       [options] { return send_stop(*options); });
+  auto* fault = add("fault", "something goes wrong in the plant, or is well again (kind none)",
+                    [options] { return send_fault(*options); });
+  fault->add_option("target", options->target, "motor, sensor, payload or friction")
+      ->required()
+      ->check(CLI::IsMember({"motor", "sensor", "payload", "friction"}));
+  fault
+      ->add_option("kind", options->kind,
+                   "none, off, stuck, garbage, wrong, slow, delayed, intermittent; changed")
+      ->required()
+      ->check(CLI::IsMember(
+          {"none", "off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent", "changed"}));
+  fault->add_option("--index", options->index, "which motor, sensor or parameter, from 1; 0: all")
+      ->check(CLI::Range(0, 1000));
+  fault->add_option("--magnitude", options->magnitude, "in SI, as docs/experiments.md says of the kind");
+  fault->add_option("--for", options->duration, "seconds of plant time; 0: until healed")
+      ->check(CLI::NonNegativeNumber);
   command->footer(
       "Sends SIM_CONTROL (or STOP) to the plant whose STATE is heard; docs/messages.md says what each does.\n"
       "Example:\n"

@@ -92,6 +92,7 @@ class Run {
     if (!launch_.speed.empty()) words.insert(words.end(), {"--speed", launch_.speed});
     words.insert(words.end(), {"--report-fd", std::to_string(report)});
     if (launch_.truth) words.emplace_back("--truth");
+    if (launch_.allow_faults) words.emplace_back("--allow-faults");
     if (!launch_.out.empty()) words.insert(words.end(), {"--out", launch_.out});
     return words;
   }

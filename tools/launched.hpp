@@ -24,6 +24,7 @@ struct Launch {
   std::vector<std::string> order = {"planner", "controller", "plant"};
   bool hold = false;
   bool truth = false;
+  bool allow_faults = false;
   bool quiet = false;    ///< no progress, no notes
   double patience = 10;  ///< s
   Evaluation evaluation = Evaluation::machine_code;

@@ -101,6 +101,7 @@ void add_run_command(CLI::App& app, int& status) {
   command->add_flag("--paused", launch.paused, "begin paused, at tick 0; mixloop control goes on from there");
   command->add_flag("--hold", launch.hold, "go on holding the end point until Ctrl-C");
   command->add_flag("--truth", launch.truth, "publish TRUTH, which no controller may read");
+  command->add_flag("--allow-faults", launch.allow_faults, "obey FAULT messages: mixloop control fault");
   command->add_option("--without", launch.without, "do not launch this one: a stranger's is used")
       ->check(CLI::IsMember({"plant", "controller", "planner"}))
       ->type_name("PROCESS");

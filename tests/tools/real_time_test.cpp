@@ -101,6 +101,26 @@ TEST(RunInRealTime, IsPausedSteppedResetAndStoppedByItsOperator) {
   EXPECT_EQ(run.wait(), 130) << run.err();
 }
 
+// A motor that gives nothing lets go of the arm; without --allow-faults nobody is obeyed.
+TEST(RunInRealTime, ObeysAFaultOnlyWhereThatIsAllowed) {
+  for (const bool allowed : {true, false}) {
+    SCOPED_TRACE(allowed);
+    auto line = real_time({"--truth"}, "1");
+    if (allowed) line.emplace_back("--allow-faults");
+    Command run(line);
+    ASSERT_TRUE(heard("COMMAND", 100));
+    Command control({bin("mixloop"), "control", "fault", "motor", "off", "--index", "2", "--json"});
+    EXPECT_EQ(control.wait(), 0) << control.err();
+    run.wait();
+    const auto result = run.json();
+    ASSERT_TRUE(result.contains("max_position_error")) << result;
+    if (allowed)
+      EXPECT_GT(result["max_position_error"], 0.1);
+    else
+      EXPECT_LT(result["max_position_error"], 0.1);
+  }
+}
+
 TEST(RunInRealTime, SaysThatControlHasNoPlant) {
   Command command({bin("mixloop"), "control", "pause", "--patience", "0.1", "--json"});
   EXPECT_EQ(command.wait(), 3);
