@@ -78,6 +78,13 @@ class Listener {
 
 }  // namespace
 
+RunFault no_plant_heard(const Bus& bus, const std::string& which) {
+  return {"lost_peer",
+          "no plant" + which + " is heard on " + bus.channel("STATE") +
+              "; start mixloop-plant, -controller and -planner with the same experiment, in the same "
+              "network namespace"};
+}
+
 nlohmann::json attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
                         const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
@@ -90,11 +97,8 @@ nlohmann::json attached(const Experiment& experiment, const BusOptions& options,
     bus.wait(now() + std::chrono::milliseconds(100), stop);
     if (listener.latest() != before) news = now();
     if (now() - news > patience)
-      throw RunFault("lost_peer", std::string(listener.heard() ? "the plant fell silent on "
-                                                               : "no plant of this experiment is heard on ") +
-                                      bus.channel("STATE") +
-                                      "; start mixloop-plant, -controller and -planner with the same "
-                                      "experiment, in the same network namespace");
+      throw listener.heard() ? RunFault("lost_peer", "the plant fell silent on " + bus.channel("STATE"))
+                             : no_plant_heard(bus, " of this experiment");
   }
   return listener.result(experiment, stop.turned(), std::chrono::duration<double>(now() - start).count());
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "loop/experiment.hpp"
+#include "notation/errors.hpp"
 #include "runtime/bus.hpp"
 
 namespace mixloop {
@@ -13,5 +14,8 @@ namespace mixloop {
 /// trajectory_sha256). Throws RunFault("lost_peer") when no plant is heard for `patience`.
 nlohmann::json attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
                         const StopSwitch& stop);
+
+/// For what listens to processes that somebody else started: there are none, and what to do about it.
+RunFault no_plant_heard(const Bus& bus, const std::string& which = "");
 
 }  // namespace mixloop

@@ -19,5 +19,6 @@ void add_report_command(CLI::App& app, int& status);
 void add_spy_command(CLI::App& app, int& status);
 void add_doctor_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
+void add_monitor_command(CLI::App& app, int& status);
 
 }  // namespace mixloop

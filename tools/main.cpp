@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   mixloop::add_stability_command(app, status);
   mixloop::add_report_command(app, status);
   mixloop::add_spy_command(app, status);
+  mixloop::add_monitor_command(app, status);
   mixloop::add_doctor_command(app, status);
   mixloop::add_export_command(app, status);
   return mixloop::run_command_line(argc, argv, app, status);

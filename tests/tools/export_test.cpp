@@ -66,7 +66,8 @@ class Export : public testing::Test {
     kept = std::make_unique<ScratchFolder>();
     const std::string logged = kept->file("logger.lcmlog");
     Command logger({"/usr/bin/lcm-logger", "--lcm-url=udpm://239.255.76.67:7667?ttl=0", logged});
-    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(logged); }));
+    // It listens when it has a socket on LCM's port, 7667.
+    ASSERT_TRUE(eventually([] { return bytes_of("/proc/net/udp").find(":1DF3 ") != std::string::npos; }));
     Command run({bin("mixloop"), "run", experiment("paper"), "--truth", "--out", kept->path().string()});
     ASSERT_EQ(run.wait(), 0) << run.err();
     // lcm-logger writes as it likes; what it has is on disk after an ordered stop.
