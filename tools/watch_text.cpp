@@ -146,10 +146,7 @@ std::vector<Line> timing_lines(const WatchView& view) {
                                   duration_text_ns(t->slipped), t->resent),
                       t->overruns > 0 ? Style::warning : Style::plain}});
   } else {
-    lines.push_back(
-        {{view.real_time ? "no TIMING heard yet from the plant"
-                         : "the plant publishes no TIMING: in lockstep it waits for every command",
-          Style::quiet}});
+    lines.push_back({{"no TIMING heard yet from the plant", Style::quiet}});
   }
   const auto add_heard = [&lines](const char* what, const Heard& heard) {
     if (heard.count > 0)

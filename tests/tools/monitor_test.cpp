@@ -35,7 +35,7 @@ TEST(Monitor, MeasuresWhatTheRunItselfMeasures) {
     EXPECT_EQ(seen["ending"], "finished");
     EXPECT_TRUE(seen["warnings"].empty());
     const auto& channels = seen["channels"];
-    EXPECT_EQ(channels["MIXLOOP_TIMING"]["received"], 0) << "in lockstep there is none";
+    EXPECT_GT(channels["MIXLOOP_TIMING"]["received"], 0);
     bool complete = true;
     for (const char* name : {"STATE", "REFERENCE", "COMMAND", "TRUTH"}) {
       const auto& channel = channels[std::string("MIXLOOP_") + name];
@@ -83,7 +83,7 @@ TEST(Monitor, DrawsOn80By24FollowsTheSizeAndLeavesTheTerminalAsItWas) {
   ASSERT_TRUE(screen.shows("now 11.44")) << screen.screen();
   EXPECT_THAT(screen.screen(), AllOf(HasSubstr("\nMIXLOOP_STATE "), HasSubstr("\nMIXLOOP_COMMAND "),
                                      HasSubstr("\nposition error  now 11.44"), HasSubstr("\n3       0.0642"),
-                                     HasSubstr("lockstep it waits"), HasSubstr("\nq quits")));
+                                     HasSubstr("plant: round trip"), HasSubstr("\nq quits")));
   EXPECT_THAT(screen.sent(), HasSubstr("\033[36m")) << "colours, where there are any";
   screen.resize(40, 132);
   EXPECT_TRUE(screen.shows("[" + std::string(36, ' ') + "|")) << "wider bars\n" << screen.screen();

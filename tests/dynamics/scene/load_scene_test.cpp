@@ -207,8 +207,7 @@ const std::string& documentation() {
 }
 
 TEST(SceneDocumentation, ItsFirstExampleLoads) {
-  const std::string fence = "```yaml\n";
-  const auto begin = documentation().find(fence) + fence.size();
+  const auto begin = documentation().find('\n', documentation().find("```yaml")) + 1;
   const Scene scene =
       loaded(documentation().substr(begin, documentation().find("```", begin) - begin), "scenes.md");
   EXPECT_EQ(scene.n(), 1);
