@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "notation/errors.hpp"
 #include "tests/runtime/scripted_peer.hpp"
 
@@ -72,7 +74,7 @@ class RealTime : public testing::Test {
   }
 
   std::vector<Taken> taken_;
-  std::int64_t done_ = 0;
+  std::atomic<std::int64_t> done_ = 0;  // also read while the plant runs
   std::int64_t breaks_at_ = -1;
   std::string safe_;
   ScriptedPeer script_{"STATE", "SIM_CONTROL", "TIMING"};
