@@ -268,10 +268,10 @@ TEST(WatchText, StaysWithinAnySize) {
   EXPECT_THAT(text_of(busy(40), 80, 100), AllOf(HasSubstr("\n40 "), Not(HasSubstr("more: a taller"))));
 }
 
-TEST(WatchText, SaysThatLockstepHasNoTiming) {
+TEST(WatchText, SaysThatNoTimingWasHeard) {
   Script script;
   script.state(0, {0, 0, 0});
-  EXPECT_THAT(script.text(), HasSubstr("in lockstep it waits for every command"));
+  EXPECT_THAT(script.text(), HasSubstr("no TIMING heard yet"));
   EXPECT_THAT(script.text(), HasSubstr("not heard: MIXLOOP_REFERENCE"));
 }
 
