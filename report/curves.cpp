@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "report/position_error.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -45,10 +47,8 @@ void Curves::add(const Tick& tick) {
 
 // e = p - p_d; along = e . v_d / |v_d|; across = |e - along v_d / |v_d||
 void Curves::put_error(const Tick& tick) {
-  Eigen::Vector3d e = tick.actual.position - tick.desired.position;
-  double squared = 0;
-  for (const int axis : axes_) squared += e[axis] * e[axis];
-  const double error = std::sqrt(squared);
+  const Eigen::Vector3d e = tick.actual.position - tick.desired.position;
+  const double error = position_error(tick.actual.position, tick.desired.position, axes_);
   measure(error, tick.t);
   put(error);
   for (const double value : e) put(value);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "dynamics/scene/load_scene.hpp"
+#include "loop/arrivals.hpp"
 #include "loop/inputs.hpp"
 #include "report/mechanism.hpp"
 #include "report/trajectory_reader.hpp"
@@ -86,7 +87,7 @@ void add_notes(const LogFacts& facts, std::vector<std::string>& notes) {
   say(facts.states_missing, "ticks have no STATE in the log: gaps.");
   say(facts.commands_missing, "ticks have no COMMAND in the log.");
   say(facts.references_missing, "ticks have no REFERENCE in the log.");
-  say(facts.dropped, "messages of the run could not be read.");
+  say(facts.dropped, "messages of the run could not be read, or are of no tick that the log has.");
   if (!facts.damage.empty()) notes.push_back("The log's file: " + facts.damage + ".");
 }
 
@@ -115,6 +116,17 @@ RunFile opened_log(const std::filesystem::path& log, const ReadOptions& options,
   return run;
 }
 
+/// A run in real time kept when each command arrived, on the plant's own clock: better than a logger's.
+void take_arrivals(const std::filesystem::path& file, double rate_hz, std::vector<double>& ages) {
+  constexpr std::int64_t kLongest = 100'000'000;  // ticks: a damaged number must not take all memory
+  for (const Arrival& arrival : read_arrivals(file)) {
+    if (arrival.command >= kLongest) break;
+    const auto k = static_cast<std::size_t>(arrival.command);
+    if (k >= ages.size()) ages.resize(k + 1, kUnknown);
+    ages[k] = static_cast<double>(arrival.tick - arrival.command) / rate_hz + static_cast<double>(arrival.offset) * 1e-9;
+  }
+}
+
 std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism, const std::function<void(Tick&)>& on_tick) {
   std::optional<LogFacts> facts;
   std::vector<double> ages;
@@ -124,6 +136,11 @@ std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism, const st
       ages.push_back(tick.command_age);
     });
     add_notes(*facts, run.notes);
+  }
+  if (const auto arrivals = run.trajectory.parent_path() / "ages.csv"; is_there(arrivals)) {
+    ages.clear();
+    take_arrivals(arrivals, run.rate_hz, ages);
+    run.notes.push_back("The ages of commands are the plant's own (ages.csv).");
   }
   TrajectoryReader(run.trajectory).read(run.m, [&](Tick& tick) {
     if (mechanism) mechanism->complete(tick);

@@ -16,6 +16,7 @@ void add_explain_command(CLI::App& app, int& status);
 void add_compile_command(CLI::App& app, int& status);
 void add_stability_command(CLI::App& app, int& status);
 void add_report_command(CLI::App& app, int& status);
+void add_view_command(CLI::App& app, int& status);
 void add_spy_command(CLI::App& app, int& status);
 void add_doctor_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   mixloop::add_compile_command(app, status);
   mixloop::add_stability_command(app, status);
   mixloop::add_report_command(app, status);
+  mixloop::add_view_command(app, status);
   mixloop::add_spy_command(app, status);
   mixloop::add_monitor_command(app, status);
   mixloop::add_doctor_command(app, status);

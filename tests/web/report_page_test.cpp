@@ -17,7 +17,7 @@ TEST(ReportPage, ShowsInABrowserWhatTheTrajectoryHolds) {
   ASSERT_EQ(report.wait(), 0) << report.err();
   Command look({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/report.mjs", MIXLOOP_CHROMIUM, out + "/report.html",
                 out + "/trajectory.csv"});
-  EXPECT_EQ(look.wait(std::chrono::seconds(120)), 0) << look.out() << look.err();
+  EXPECT_EQ(look.wait(std::chrono::seconds(280)), 0) << look.out() << look.err();
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ export function sections(runs) {
         'Age of commands',
         'STATE to COMMAND (µs)',
         [{ curve: 'command_age', name: 'age', scale: 1e6, colour: 0 }],
-        { note: 'As the logger received the two messages; a gap is a tick without a command in the log.' },
+        { note: 'As the logger received the two messages, or in real time as the plant itself did; a gap is a tick whose command did not come.' },
       ),
     },
   ];

@@ -121,6 +121,7 @@ export class Plot {
           stroke: () => palettes[theme()][line.colour % 8],
           dash: dashes[line.dash ?? 0],
           width: 1.75,
+          pxAlign: 0,
           points: { show: false },
           value: (_, y) => shown(y),
         })),

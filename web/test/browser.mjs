@@ -22,9 +22,11 @@ export async function opened(executablePath, look, more = ['--disable-gpu']) {
     executablePath,
     args: [...flags, ...more],
     viewport: { width: 1280, height: 900 },
+    timeout: 120_000,
   });
   try {
     const tab = context.pages()[0] ?? (await context.newPage());
+    tab.setDefaultTimeout(120_000); // a busy machine without a graphics card draws slowly
     const complaints = [];
     tab.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
     tab.on('pageerror', (error) => complaints.push(String(error.stack)));

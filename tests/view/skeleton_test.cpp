@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "view/skeleton.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/scene/load_scene.hpp"
+#include "view/source.hpp"
+
+namespace mixloop {
+namespace {
+
+using testing::ElementsAre;
+
+Skeleton of(const std::string& name) {
+  auto scene = std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES) / (name + ".yaml")));
+  return Skeleton(scene, scene->default_parameters());
+}
+
+// By hand: at psi = 0 all of Appendix B's q's are q1 = q2 = q3 = 0, so link 2 lies along x at the height L1 and the
+// pantograph's first link too.
+TEST(Skeleton, PlacesThePapersRobot) {
+  Skeleton robot = of("mixed_loop_robot");
+  robot.place(std::vector<double>{0, 0, 0}, 0);
+  ASSERT_EQ(robot.frames(), 7u);
+  const auto place = [&](std::size_t i) { return Eigen::Vector3d(robot.frame(i).col(3)); };
+  const double round_off = 1e-15;
+  EXPECT_LT((place(1) - Eigen::Vector3d(0, 0, 0.3)).norm(), round_off);
+  EXPECT_LT((place(2) - Eigen::Vector3d(0.3, 0, 0.3)).norm(), round_off);
+  EXPECT_LT((place(4) - Eigen::Vector3d(0.15, 0, 0.3)).norm(), round_off);
+  EXPECT_LT((place(3) - robot.end_effector()).norm(), round_off);  // E is frame 3's origin
+}
+
+// Links 4, 5, 6 and link 2's other side (26 cm at 57 degrees from the first) are a parallelogram: link 6 ends on body 2.
+TEST(Skeleton, FindsWhereThePantographCloses) {
+  Skeleton robot = of("mixed_loop_robot");
+  ASSERT_EQ(robot.closures().size(), 1u);
+  EXPECT_EQ(robot.closures()[0].leaf, 6u);
+  EXPECT_EQ(robot.closures()[0].on, 2u);
+  robot.place(std::vector<double>{3, -200, 150}, 0);
+  const Eigen::Vector3d end = robot.frame(6).col(3), shoulder = robot.frame(1).col(3), elbow = robot.frame(2).col(3);
+  EXPECT_NEAR((end - shoulder).norm(), 0.26, 1e-14);
+  const double angle = std::acos((end - shoulder).dot(elbow - shoulder) / (0.26 * 0.3));
+  EXPECT_NEAR(angle, 57 * std::numbers::pi / 180, 1e-13);  // round-off of angles of hundreds of degrees
+}
+
+TEST(Skeleton, ClosesEveryLoopOfTheScenes) {
+  EXPECT_EQ(of("double_four_bar").closures().size(), 2u);
+  EXPECT_EQ(of("spatial_slider_crank").closures().size(), 1u);
+}
+
+TEST(Skeleton, ShowsEachMotorsTorqueAtAJointThatItMoves) {
+  const auto motors = of("mixed_loop_robot").description()["motors"];
+  std::vector<int> joints;
+  for (const auto& motor : motors) joints.push_back(motor["joint"]);
+  EXPECT_THAT(joints, ElementsAre(1, 2, 4));  // q1, q2, q3: the shoulder's three
+}
+
+TEST(Skeleton, WritesAPoseThatReadsBackToTheSameNumbers) {
+  Skeleton robot = of("mixed_loop_robot");
+  Pose pose{.k = 12, .t = 0.012, .session = std::int64_t{1} << 62};
+  pose.psi = {0.1, -16.7, 1.0 / 3};
+  pose.tau = {1, std::nan(""), -2};
+  const auto json = nlohmann::json::parse(pose_json(robot, pose, ""));
+  EXPECT_EQ(json["psi"].get<std::vector<double>>(), pose.psi);
+  EXPECT_TRUE(json["tau"][1].is_null());
+  EXPECT_TRUE(json["error"][0].is_null());
+  EXPECT_EQ(json["session"], "4611686018427387904");
+  EXPECT_EQ(json["frames"].size(), 7 * 7u);
+  EXPECT_TRUE(json["traces"].is_null());
+}
+
+}  // namespace
+}  // namespace mixloop

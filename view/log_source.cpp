@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "view/log_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/position_error.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr std::size_t kMostPoints = 4000;  // of each plot
+
+RunFile opened(const std::filesystem::path& path, const ReadOptions& options) {
+  RunFile run = open_run(path, options);
+  if (!run.scene)
+    throw InputError("no_scene", {path.string()},
+                     "no inputs.json beside it, so its mechanism isn't known; expected --experiment FILE");
+  return run;
+}
+
+}  // namespace
+
+LogSource::LogSource(const std::filesystem::path& path, const ReadOptions& options)
+    : run_(opened(path, options)),
+      n_(run_.n),
+      skeleton_(run_.scene, run_.parameters),
+      traces_(run_.n, std::size_t{1} << 32) {
+  std::vector<Eigen::Vector3d> way;
+  read_ticks(run_, [&](const Tick& tick) {
+    keep(tick);
+    way.push_back(tick.desired.position);
+  });
+  description_ = nlohmann::json{{"mode", "log"},
+                                {"label", run_.label},
+                                {"source", run_.source},
+                                {"notes", run_.notes},
+                                {"rate", run_.rate_hz},
+                                {"first_tick", run_.first_tick},
+                                {"ticks", traces_.count()},
+                                {"mechanism", skeleton_.description()},
+                                {"path", path_json(way)},
+                                {"torque_limit", nlohmann::json::array()}}
+                     .dump();
+}
+
+void LogSource::keep(const Tick& tick) {
+  rows_.insert(rows_.end(), tick.psi.begin(), tick.psi.end());
+  rows_.insert(rows_.end(), tick.tau.begin(), tick.tau.end());
+  rows_.insert(rows_.end(), tick.desired.position.begin(), tick.desired.position.end());
+  const auto& axes = run_.scene->end_effector.axes;
+  traces_.add({.t = tick.t,
+               .error = static_cast<float>(position_error(tick.actual.position, tick.desired.position, axes)),
+               .tau = std::vector<float>(tick.tau.begin(), tick.tau.end())});
+}
+
+std::string LogSource::newest(Cursor& cursor) {
+  cursor.version = 0;
+  return at_tick(run_.first_tick);
+}
+
+// A tick that the log lost shows the last one before it that there is.
+std::string LogSource::at_tick(std::int64_t k) {
+  const std::size_t width = 2 * n_ + 3;
+  auto index = static_cast<std::size_t>(std::clamp<std::int64_t>(k - run_.first_tick, 0, traces_.count() - 1));
+  while (index > 0 && std::isnan(rows_[index * width])) --index;
+  const double* row = rows_.data() + index * width;
+  Pose pose;
+  pose.k = run_.first_tick + static_cast<std::int64_t>(index);
+  pose.t = static_cast<double>(pose.k) / run_.rate_hz;
+  pose.session = run_.session ? run_.session->session : 0;
+  pose.psi.assign(row, row + n_);
+  pose.tau.assign(row + n_, row + 2 * n_);
+  pose.desired = Eigen::Map<const Eigen::Vector3d>(row + 2 * n_);
+  return pose_json(skeleton_, pose, k == run_.first_tick ? traces_.since(0, kMostPoints) : std::string());
+}
+
+}  // namespace mixloop

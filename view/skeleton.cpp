@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "view/skeleton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/procedure/constraints.hpp"
+#include "dynamics/procedure/kinematics.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr double kSame = 1e-9;  // m: far above round-off of metres, far below what anyone draws
+
+Eigen::Vector3d seen_from(const Mat34<double>& frame, const Eigen::Vector3d& place) {
+  return frame.leftCols<3>().transpose() * (place - frame.col(3));
+}
+
+}  // namespace
+
+Skeleton::Skeleton(std::shared_ptr<const Scene> scene, std::span<const double> parameters)
+    : scene_(std::move(scene)), model_(make_model<double>(scene_, parameters)), ws_(model_) {
+  closures_ = find_closures();
+  joints_ = joints_of_motors();
+  place(scene_->home, 0);
+}
+
+void Skeleton::place(std::span<const double> psi, double t) {
+  coordinates<double>(model_, psi, t, ws_);
+  frame_variations(model_, ws_);
+}
+
+Eigen::Vector3d Skeleton::end_effector() const {
+  return at_point<double>(ws_.frames[static_cast<std::size_t>(scene_->end_effector.frame)].T_0,
+                          model_.end_effector_point);
+}
+
+// The description says which frames make the tree, not where its loops close: a leaf whose origin stays where it is
+// in another body's frame, at home and at poses around it, is joined to that body there.
+std::vector<Skeleton::Closure> Skeleton::find_closures() {
+  const std::size_t count = ws_.frames.size();
+  std::vector<bool> is_leaf(count, true);
+  for (const auto& link : model_.links) is_leaf[static_cast<std::size_t>(link.parent)] = false;
+  is_leaf[static_cast<std::size_t>(scene_->end_effector.frame)] = false;
+
+  constexpr int kPoses = 4;
+  std::vector<std::vector<Mat34<double>>> poses;
+  for (int pose = 0; pose < kPoses; ++pose) {
+    std::vector<double> psi = scene_->home;
+    for (std::size_t i = 0; i < psi.size(); ++i) psi[i] += 0.3 * pose * std::cos(1.0 + 2.0 * static_cast<double>(i));
+    place(psi, 0);
+    poses.emplace_back();
+    for (const auto& frame : ws_.frames) poses.back().push_back(frame.T_0);
+  }
+  const auto stands_still = [&](std::size_t leaf, std::size_t on) {
+    const Eigen::Vector3d at_home = seen_from(poses[0][on], poses[0][leaf].col(3));
+    return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) {
+      return (seen_from(pose[on], pose[leaf].col(3)) - at_home).norm() < kSame;
+    });
+  };
+  std::vector<Closure> closures;
+  for (std::size_t leaf = 1; leaf < count; ++leaf) {
+    if (!is_leaf[leaf]) continue;
+    const auto parent = static_cast<std::size_t>(model_.links[leaf - 1].parent);
+    for (std::size_t on = 0; on < count; ++on)
+      if (on != leaf && on != parent && stands_still(leaf, on)) {
+        closures.push_back({leaf, on});
+        break;
+      }
+  }
+  return closures;
+}
+
+// A motor's torque is shown at the joint nearest to the ground that it moves and no motor before it has taken.
+std::vector<int> Skeleton::joints_of_motors() {
+  place(scene_->home, 0);
+  std::vector<int> depth(ws_.frames.size(), 0);
+  for (std::size_t i = 0; i < model_.links.size(); ++i)
+    depth[i + 1] = depth[static_cast<std::size_t>(model_.links[i].parent)] + 1;
+  std::vector<int> joints;
+  for (int motor = 0; motor < n(); ++motor) {
+    int nearest = -1;
+    for (std::size_t i = 0; i < model_.links.size(); ++i) {
+      const int coordinate = model_.links[i].coordinate, frame = static_cast<int>(i + 1);
+      if (coordinate < 0 || std::abs(ws_.C(coordinate, motor)) < kSame) continue;
+      if (std::find(joints.begin(), joints.end(), frame) != joints.end()) continue;
+      if (nearest < 0 || depth[i + 1] < depth[static_cast<std::size_t>(nearest)]) nearest = frame;
+    }
+    joints.push_back(nearest);
+  }
+  return joints;
+}
+
+nlohmann::json Skeleton::description() const {
+  using nlohmann::json;
+  const auto list = [](const Eigen::Vector3d& v) { return json{v[0], v[1], v[2]}; };
+  json frames = json::array(), bodies = json::array(), motors = json::array(), closures = json::array();
+  frames.push_back({{"name", scene_->frames[0]}, {"parent", -1}});
+  for (std::size_t i = 0; i < model_.links.size(); ++i) {
+    const auto& link = model_.links[i];
+    frames.push_back({{"name", scene_->frames[i + 1]}, {"parent", link.parent}, {"prismatic", link.prismatic}});
+    if (link.coordinate >= 0)
+      frames.back()["coordinate"] = scene_->coordinates[static_cast<std::size_t>(link.coordinate)].name;
+  }
+  for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+    const auto& body = model_.bodies[i];
+    bodies.push_back({{"name", scene_->bodies[i].name},
+                      {"frame", body.frame},
+                      {"mass", body.mass},
+                      {"center_of_mass", list(body.center_of_mass)}});
+  }
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    motors.push_back(
+        {{"name", scene_->motors[i].name}, {"linear", scene_->motors[i].linear}, {"joint", joints_[i]}});
+  for (const auto& closure : closures_) closures.push_back({{"leaf", closure.leaf}, {"on", closure.on}});
+  return {{"name", scene_->name},
+          {"frames", frames},
+          {"bodies", bodies},
+          {"motors", motors},
+          {"closures", closures},
+          {"end_effector",
+           {{"frame", scene_->end_effector.frame}, {"point", list(model_.end_effector_point)}}}};
+}
+
+}  // namespace mixloop

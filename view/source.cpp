@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "view/source.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <iterator>
+
+#include "report/position_error.hpp"
+
+namespace mixloop {
+namespace {
+
+void write(fmt::memory_buffer& out, const char* key, std::span<const double> values) {
+  const auto to = std::back_inserter(out);
+  fmt::format_to(to, ",\"{}\":[", key);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) out.push_back(',');
+    if (std::isfinite(values[i]))
+      fmt::format_to(to, "{}", values[i]);
+    else
+      fmt::format_to(to, "null");
+  }
+  out.push_back(']');
+}
+
+}  // namespace
+
+std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& traces) {
+  skeleton.place(pose.psi, pose.t);
+  std::vector<double> frames;
+  for (std::size_t i = 0; i < skeleton.frames(); ++i) {
+    const auto& frame = skeleton.frame(i);
+    const Eigen::Quaterniond turn(Eigen::Matrix3d(frame.leftCols<3>()));
+    frames.insert(frames.end(), {frame(0, 3), frame(1, 3), frame(2, 3), turn.x(), turn.y(), turn.z(), turn.w()});
+  }
+  const Eigen::Vector3d E = skeleton.end_effector();
+  const double error = position_error(E, pose.desired, skeleton.scene().end_effector.axes);
+
+  fmt::memory_buffer out;
+  // The session is text: it has more digits than a script's number holds.
+  fmt::format_to(std::back_inserter(out), "{{\"k\":{},\"session\":\"{}\",\"flags\":{}", pose.k, pose.session,
+                 pose.flags);
+  fmt::format_to(std::back_inserter(out), ",\"t\":{}", pose.t);
+  write(out, "psi", pose.psi);
+  write(out, "q", skeleton.q());
+  write(out, "tau", pose.tau);
+  write(out, "frames", frames);
+  write(out, "E", {E.data(), 3});
+  write(out, "desired", {pose.desired.data(), 3});
+  write(out, "error", {&error, 1});
+  fmt::format_to(std::back_inserter(out), ",\"traces\":{}}}", traces.empty() ? "null" : traces);
+  return fmt::to_string(out);
+}
+
+nlohmann::json path_json(const std::vector<Eigen::Vector3d>& path, std::size_t most) {
+  auto list = nlohmann::json::array();
+  const std::size_t points = std::min(most, path.size());
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto& place = path[points < 2 ? 0 : i * (path.size() - 1) / (points - 1)];
+    if (std::isfinite(place.sum())) list.push_back({place[0], place[1], place[2]});
+  }
+  return list;
+}
+
+}  // namespace mixloop

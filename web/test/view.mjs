@@ -1,0 +1,206 @@
+// Looks at the live view in a browser: node view.mjs CHROMIUM MIXLOOP EXPERIMENT FOLDER. The plant runs twice, a
+// browser that never reads stands by, the viewer is started again, and at last shows the kept run. Prints what it
+// measured, or throws.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import http from 'node:http';
+import net from 'node:net';
+import { opened, webgl } from './browser.mjs';
+
+const [executable, mixloop, experiment, folder] = process.argv.slice(2);
+const sets = ['--set', 'path.duration=2 s', '--set', 'expect={}'];
+const children = [];
+
+/** A command that runs; `words(n)` waits for its n-th line on stdout or stderr. */
+function started(...words) {
+  const child = spawn(mixloop, words, { stdio: ['ignore', 'pipe', 'inherit'] });
+  children.push(child);
+  child.over = new Promise((resolve) => child.on('exit', (code, signal) => resolve(code ?? signal)));
+  return child;
+}
+
+async function viewing(what, port) {
+  const child = started('view', what, '--port', String(port), '--json', ...(what === experiment ? sets : []));
+  let text = '';
+  for await (const part of child.stdout) {
+    text += part;
+    if (text.includes('}')) break;
+  }
+  return { child, ...JSON.parse(text) };
+}
+
+const run = (out) => started('run', experiment, ...sets, '--speed', '1', '--json', '--out', out);
+
+/** The status of a request with these headers. */
+function status(url, headers, method = 'GET') {
+  return new Promise((resolve, reject) => {
+    const request = http.request(url, { headers, method }, (response) => resolve(response.resume().statusCode));
+    request.on('upgrade', (response, socket) => {
+      socket.destroy();
+      resolve(response.statusCode);
+    });
+    request.on('error', reject);
+    request.end();
+  });
+}
+
+const upgrade = (origin) => ({
+  Connection: 'Upgrade',
+  Upgrade: 'websocket',
+  'Sec-WebSocket-Version': '13',
+  'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==',
+  ...(origin ? { Origin: origin } : {}),
+});
+
+async function refusesStrangers(url) {
+  const { host, origin } = new URL(url);
+  assert.equal(await status(url, { Host: host }), 200);
+  assert.equal(await status(url, { Host: 'evil.example' }), 421, 'a name bent to 127.0.0.1');
+  assert.equal(await status(url, { Host: host }, 'POST'), 405);
+  assert.equal(await status(`${url}live`, { Host: host, ...upgrade(origin) }), 101);
+  assert.equal(await status(`${url}live`, { Host: host, ...upgrade('http://evil.example') }), 403);
+  assert.equal(await status(`${url}live`, { Host: host, ...upgrade() }), 403);
+  assert.equal(await status(`${url}../etc/passwd`, { Host: host }), 404);
+  // What is no tick, and what is too long, does no harm to the others.
+  const noise = net.connect(Number(new URL(url).port), '127.0.0.1');
+  noise.write('GET /live HTTP/1.1\r\n\r\n\0\0\0');
+  noise.on('error', () => {});
+}
+
+/** A browser that takes the WebSocket and never reads from it. */
+function slow(url) {
+  const { host, port, origin } = new URL(url);
+  const socket = net.connect(Number(port), '127.0.0.1');
+  socket.pause();
+  const headers = Object.entries({ Host: host, ...upgrade(origin) }).map(([name, value]) => `${name}: ${value}\r\n`);
+  socket.write(`GET /live HTTP/1.1\r\n${headers.join('')}\r\n`);
+  socket.on('error', () => {});
+  return socket;
+}
+
+const pose = (tab) => tab.evaluate(() => window.mixloop.pose);
+const picture = (tab) => tab.evaluate(() => document.getElementById('canvas').toDataURL());
+
+/** Waits until the canvas shows something else: without a graphics card it may take a while. */
+const changed = (tab, before) =>
+  tab.waitForFunction((old) => document.getElementById('canvas').toDataURL() !== old, before);
+
+/** Waits for a pose past tick k of another session than `old`. */
+async function past(tab, k, old) {
+  await tab.waitForFunction(
+    ([least, before]) => window.mixloop?.pose && window.mixloop.pose.session !== before && window.mixloop.pose.k > least,
+    [k, old],
+  );
+}
+
+/** Holds poses against the plant's own memory. */
+function agree(poses, out) {
+  const [header, ...lines] = readFileSync(`${out}/trajectory.csv`, 'utf8').trim().split('\n');
+  const names = header.split(',');
+  for (const { k, psi, tau, E } of poses) {
+    const row = lines[k].split(',').map(Number);
+    const of = (...wanted) => wanted.map((name) => row[names.indexOf(name)]);
+    assert.deepEqual(psi, of('psi_1', 'psi_2', 'psi_3'), `psi of tick ${k}`);
+    if (tau[0] !== null) assert.deepEqual(tau, of('tau_1', 'tau_2', 'tau_3'), `tau of tick ${k}`);
+    const place = of('position_x_actual', 'position_y_actual', 'position_z_actual');
+    E.forEach((x, i) => assert.ok(Math.abs(x - place[i]) < 1e-13, `E of tick ${k}`)); // two programs' round-off
+  }
+}
+
+async function live(tab, complaints) {
+  let view = await viewing(experiment, 0);
+  await refusesStrangers(view.url);
+  await tab.goto(view.url);
+  await tab.waitForSelector('#status[data-state=waiting]');
+
+  const first = run(`${folder}/first`);
+  await past(tab, 50);
+  await tab.waitForFunction(() => window.mixloop.drawn > 1);
+  const before = await picture(tab);
+  const begun = await tab.evaluate(() => [performance.now(), window.mixloop.drawn, window.mixloop.poses]);
+  const poses = [];
+  for (let i = 0; i < 12; ++i) {
+    poses.push(await pose(tab));
+    await tab.waitForTimeout(60);
+  }
+  const ended = await tab.evaluate(() => [performance.now(), window.mixloop.drawn, window.mixloop.poses]);
+  await changed(tab, before);
+  assert.equal(await first.over, 0);
+  agree(poses, `${folder}/first`);
+  assert.ok(new Set(poses.map(({ k }) => k)).size > 3, 'poses follow each other');
+  const [ms, drawn, received] = ended.map((x, i) => x - begun[i]);
+  const rates = { frames_per_second: (1000 * drawn) / ms, poses_per_second: (1000 * received) / ms };
+
+  // The plant again, beside a browser that never reads: the page follows the new session.
+  const { session } = await pose(tab);
+  const sleeper = slow(view.url);
+  const second = run(`${folder}/second`);
+  await past(tab, 50, session);
+  const { k } = await pose(tab);
+  await past(tab, k + 100, session);
+  assert.equal(await second.over, 0);
+  assert.equal(await tab.evaluate(() => window.mixloop.sessions.length), 2);
+  const last = await pose(tab);
+  agree([last], `${folder}/second`);
+  sleeper.destroy();
+
+  // The viewer again, on its port: the page comes back by itself. That it was gone is all that may be complained of.
+  view.child.kill('SIGINT');
+  assert.equal(await view.child.over, 0);
+  await tab.waitForSelector('#status[data-state=closed]');
+  view = await viewing(experiment, new URL(view.url).port);
+  const third = run(`${folder}/third`);
+  await past(tab, 50, last.session);
+  assert.equal(await third.over, 0);
+  view.child.kill('SIGINT');
+  assert.equal(await view.child.over, 0);
+  const others = complaints.splice(0).filter((text) => !/WebSocket connection to .* failed/.test(text));
+  assert.deepEqual(others, [], 'the console is silent');
+  return rates;
+}
+
+async function log(tab) {
+  const view = await viewing(`${folder}/first`, 0);
+  await tab.goto(view.url);
+  await past(tab, -1);
+  await tab.focus('#canvas');
+  await tab.keyboard.press(' ');
+  assert.equal(await tab.getAttribute('#pause', 'aria-pressed'), 'true');
+  await tab.evaluate(() => {
+    const scrub = document.getElementById('scrub');
+    scrub.value = 1500;
+    scrub.dispatchEvent(new Event('input'));
+  });
+  await tab.waitForFunction(() => window.mixloop.pose.k === 1500);
+  await tab.focus('#scrub');
+  await tab.keyboard.press('ArrowRight');
+  await tab.waitForFunction(() => window.mixloop.pose.k === 1501);
+  agree([await pose(tab)], `${folder}/first`);
+  assert.equal(await tab.evaluate(() => window.mixloop.plots.errors.data[0].length), 2001);
+  for (const one of ['errors', 'torques'])
+    for (const label of await tab.evaluate((name) => window.mixloop.plots[name].axes.map((axis) => axis.label), one)) assert.match(label, /\(.+\)$/);
+
+  // The camera, by keyboard and by button.
+  await tab.waitForTimeout(200);
+  const before = await picture(tab);
+  await tab.focus('#canvas');
+  await tab.keyboard.press('ArrowLeft');
+  await changed(tab, before);
+  const turned = await picture(tab);
+  await tab.click('[data-camera=top]');
+  await changed(tab, turned);
+  view.child.kill('SIGINT');
+  assert.equal(await view.child.over, 0);
+}
+
+try {
+  await opened(executable, async (_, tab, complaints) => console.log(JSON.stringify(await live(tab, complaints))), webgl);
+  await opened(executable, async (_, tab, complaints) => {
+    await log(tab);
+    complaints.splice(0, complaints.length, ...complaints.filter((text) => !/WebSocket|net::ERR_CONNECTION/.test(text)));
+  }, webgl);
+} finally {
+  for (const child of children) if (child.exitCode === null) child.kill('SIGTERM');
+}
+console.log('held');
