@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <fstream>
-
-#include "runtime/multicast_route.hpp"
 #include "tools/bus_line.hpp"
 #include "tools/commands.hpp"
 #include "tools/web_page.hpp"
@@ -30,8 +27,8 @@ std::unique_ptr<Source> source_of(Options& options) {
   if (is_experiment(options.what)) {
     if (!options.experiment.empty())
       throw InputError("command_line", {"--experiment"}, "is for a log; the experiment of a live run is named already");
-    return std::make_unique<BusSource>(
-        options.bus, load_experiment(std::filesystem::path(options.what), options.overrides()));
+    const Experiment experiment = load_experiment(std::filesystem::path(options.what), options.overrides());
+    return std::make_unique<BusSource>(options.bus, experiment, config_of(experiment));
   }
   options.read.prefix = options.bus.prefix;
   if (!options.experiment.empty())

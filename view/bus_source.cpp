@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/position_error.hpp"
+#include "runtime/config_hash.hpp"
 
 namespace mixloop {
 namespace {
@@ -22,8 +23,9 @@ nlohmann::json desired_path(const Experiment& experiment) {
 
 }  // namespace
 
-BusSource::BusSource(const BusOptions& bus, const Experiment& experiment)
+BusSource::BusSource(const BusOptions& bus, const Experiment& experiment, std::int64_t config)
     : experiment_(experiment),
+      config_(config),
       path_(desired_path(experiment)),
       bus_(bus),
       state_(experiment.scene->n()),
@@ -56,21 +58,22 @@ void BusSource::listen() {
 }
 
 // The first STATE's session; another takes its place at once: a plant was started again.
-bool BusSource::begin_session(std::int64_t session, bool is_state) {
-  if (session == session_) return true;
-  if (!is_state) return false;
-  session_ = session;
+void BusSource::begin_session(const state_t& state) {
+  session_ = state.session;
+  const std::string difference = name_difference(config_, state.config);
+  note_ = difference.empty() ? "" : "The plant runs another experiment: its " + difference + " differ.";
   latest_ = finished_ = -1;
   traces_.clear();
   for (auto& slot : slots_) slot.state = slot.reference = slot.command = -1;
-  return true;
 }
 
 void BusSource::on_state(Bytes bytes) {
   if (state_.read(bytes)) return;
   const auto& message = state_.message;
   const std::lock_guard lock(mutex_);
-  if (message.seq < 0 || !begin_session(message.session, true) || message.seq <= latest_) return;
+  if (message.seq < 0) return;
+  if (message.session != session_) begin_session(message);
+  if (message.seq <= latest_) return;
   if (latest_ >= 0) finish_tick(latest_);
   latest_ = message.seq;
   Slot& at = slot(latest_);
@@ -87,7 +90,7 @@ void BusSource::on_reference(Bytes bytes) {
   if (reference_.read(bytes)) return;
   const auto& message = reference_.message;
   const std::lock_guard lock(mutex_);
-  if (message.seq < 0 || !begin_session(message.session, false)) return;
+  if (message.seq < 0 || message.session != session_) return;
   Slot& at = slot(message.seq);
   at.reference = message.seq;
   at.desired = Eigen::Map<const Eigen::Vector3d>(message.position_desired);
@@ -97,7 +100,7 @@ void BusSource::on_command(Bytes bytes) {
   if (command_.read(bytes)) return;
   const auto& message = command_.message;
   const std::lock_guard lock(mutex_);
-  if (message.seq < 0 || !begin_session(message.session, false)) return;
+  if (message.seq < 0 || message.session != session_) return;
   Slot& at = slot(message.seq);
   at.command = message.seq;
   std::copy(message.tau_commanded.begin(), message.tau_commanded.end(), at.tau.begin());
@@ -111,11 +114,11 @@ void BusSource::finish_tick(std::int64_t k) {
   finished_ = k;
   Trace trace{.t = at.pose.t, .error = NAN, .tau = std::vector<float>(at.tau.size(), NAN)};
   if (at.command == k) std::copy(at.tau.begin(), at.tau.end(), trace.tau.begin());
-  if (at.reference == k) {
-    errors_.place(at.pose.psi, at.pose.t);
-    const auto& axes = experiment_.scene->end_effector.axes;
-    trace.error = static_cast<float>(position_error(errors_.end_effector(), at.desired, axes));
-  }
+  errors_.place(at.pose.psi, at.pose.t);
+  const Eigen::Vector3d E = errors_.end_effector();
+  for (std::size_t i = 0; i < 3; ++i) trace.place[i] = static_cast<float>(E[static_cast<Eigen::Index>(i)]);
+  if (at.reference == k)
+    trace.error = static_cast<float>(position_error(E, at.desired, experiment_.scene->end_effector.axes));
   traces_.add(std::move(trace));
 }
 
@@ -145,6 +148,7 @@ std::string BusSource::newest(Cursor& cursor) {
     const std::int64_t k = finished_ >= 0 && latest_ - finished_ <= 1 ? finished_ : latest_;
     const Slot& at = slot(k);
     pose = at.pose;
+    pose.note = note_;
     pose.tau.assign(at.tau.size(), NAN);
     if (at.command == k) pose.tau = at.tau;
     if (at.reference == k) pose.desired = at.desired;

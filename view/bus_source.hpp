@@ -15,8 +15,9 @@ namespace mixloop {
 /// browser can hold it up.
 class BusSource : public Source {
  public:
-  /// Throws what Bus throws, and what make_plan throws for the experiment's path.
-  BusSource(const BusOptions& bus, const Experiment& experiment);
+  /// `config`: what the messages of a run of this experiment carry. Throws what Bus throws, and what make_plan throws
+  /// for the experiment's path.
+  BusSource(const BusOptions& bus, const Experiment& experiment, std::int64_t config);
   ~BusSource() override;
 
   std::string description() override;
@@ -38,10 +39,11 @@ class BusSource : public Source {
   void on_state(Bytes bytes);
   void on_reference(Bytes bytes);
   void on_command(Bytes bytes);
-  bool begin_session(std::int64_t session, bool is_state);
+  void begin_session(const state_t& state);
   void finish_tick(std::int64_t k);
 
   Experiment experiment_;
+  std::int64_t config_;
   nlohmann::json path_;
   Bus bus_;
   StopSwitch stop_;
@@ -52,6 +54,7 @@ class BusSource : public Source {
   std::mutex mutex_;  ///< guards what follows
   std::array<Slot, kSlots> slots_;
   std::int64_t session_ = 0, latest_ = -1, finished_ = -1, version_ = 0;
+  std::string note_;  ///< of the session
   Traces traces_;
   Skeleton errors_;   ///< of the listening thread
   Skeleton drawing_;  ///< of the server's

@@ -31,6 +31,7 @@ LogSource::LogSource(const std::filesystem::path& path, const ReadOptions& optio
     keep(tick);
     way.push_back(tick.desired.position);
   });
+  if (way.empty()) throw InputError("no_ticks", {path.string()}, "has no tick to show");
   description_ = nlohmann::json{{"mode", "log"},
                                 {"label", run_.label},
                                 {"source", run_.source},
@@ -39,8 +40,7 @@ LogSource::LogSource(const std::filesystem::path& path, const ReadOptions& optio
                                 {"first_tick", run_.first_tick},
                                 {"ticks", traces_.count()},
                                 {"mechanism", skeleton_.description()},
-                                {"path", path_json(way)},
-                                {"torque_limit", nlohmann::json::array()}}
+                                {"path", path_json(way)}}
                      .dump();
 }
 
@@ -51,7 +51,9 @@ void LogSource::keep(const Tick& tick) {
   const auto& axes = run_.scene->end_effector.axes;
   traces_.add({.t = tick.t,
                .error = static_cast<float>(position_error(tick.actual.position, tick.desired.position, axes)),
-               .tau = std::vector<float>(tick.tau.begin(), tick.tau.end())});
+               .tau = std::vector<float>(tick.tau.begin(), tick.tau.end()),
+               .place = {static_cast<float>(tick.actual.position[0]), static_cast<float>(tick.actual.position[1]),
+                         static_cast<float>(tick.actual.position[2])}});
 }
 
 std::string LogSource::newest(Cursor& cursor) {

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "report/position_error.hpp"
 
@@ -40,8 +43,8 @@ std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& t
 
   fmt::memory_buffer out;
   // The session is text: it has more digits than a script's number holds.
-  fmt::format_to(std::back_inserter(out), "{{\"k\":{},\"session\":\"{}\",\"flags\":{}", pose.k, pose.session,
-                 pose.flags);
+  fmt::format_to(std::back_inserter(out), "{{\"k\":{},\"session\":\"{}\",\"flags\":{},\"note\":{}", pose.k, pose.session,
+                 pose.flags, nlohmann::json(pose.note).dump());
   fmt::format_to(std::back_inserter(out), ",\"t\":{}", pose.t);
   write(out, "psi", pose.psi);
   write(out, "q", skeleton.q());
@@ -55,11 +58,23 @@ std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& t
 }
 
 nlohmann::json path_json(const std::vector<Eigen::Vector3d>& path, std::size_t most) {
+  Eigen::AlignedBox3d box;
+  for (const auto& place : path)
+    if (place.allFinite()) box.extend(place);
+  const double cell = box.isEmpty() ? 1 : std::max(1e-9, 2 * box.diagonal().norm() / static_cast<double>(most));
+  std::set<std::array<std::int64_t, 3>> seen;
+  std::vector<Eigen::Vector3d> fresh;
+  for (const auto& place : path) {
+    if (!place.allFinite()) continue;
+    const Eigen::Vector3d at = ((place - box.min()) / cell).array().floor();
+    const std::array<std::int64_t, 3> here = {std::int64_t(at[0]), std::int64_t(at[1]), std::int64_t(at[2])};
+    if (seen.insert(here).second) fresh.push_back(place);
+  }
   auto list = nlohmann::json::array();
-  const std::size_t points = std::min(most, path.size());
+  const std::size_t points = std::min(most, fresh.size());
   for (std::size_t i = 0; i < points; ++i) {
-    const auto& place = path[points < 2 ? 0 : i * (path.size() - 1) / (points - 1)];
-    if (std::isfinite(place.sum())) list.push_back({place[0], place[1], place[2]});
+    const auto& place = fresh[points < 2 ? 0 : i * (fresh.size() - 1) / (points - 1)];
+    list.push_back({place[0], place[1], place[2]});
   }
   return list;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 namespace mixloop {
 namespace {
@@ -44,6 +45,20 @@ void Traces::add(Trace trace) {
   ++count_;
 }
 
+// t, x, y, z of at most `most` ticks from `first` on, the last of all among them.
+void Traces::write_way(fmt::memory_buffer& out, std::size_t first, std::size_t most) const {
+  const auto to = std::back_inserter(out);
+  const std::size_t fresh = ticks_.size() - first, places = std::min(fresh, most);
+  const char* between = "";
+  for (std::size_t i = 1; i <= places; ++i) {
+    const Trace& tick = ticks_[first + i * fresh / places - 1];
+    const auto& [x, y, z] = tick.place;
+    if (std::isnan(x)) continue;
+    fmt::format_to(to, "{}{:.6f},{:.6g},{:.6g},{:.6g}", between, tick.t, x, y, z);
+    between = ",";
+  }
+}
+
 std::string Traces::since(std::int64_t from, std::size_t most_points) const {
   const auto size = static_cast<std::int64_t>(ticks_.size());
   const auto first = static_cast<std::size_t>(std::clamp<std::int64_t>(size - (count_ - from), 0, size));
@@ -69,6 +84,8 @@ std::string Traces::since(std::int64_t from, std::size_t most_points) const {
     if (motor > 0) out.push_back(',');
     write(out, curve([&](std::size_t i) { return ticks_[i].tau[motor]; }));
   }
+  fmt::format_to(to, "],\"way\":[");
+  write_way(out, first, most_points);
   fmt::format_to(to, "]}}");
   return fmt::to_string(out);
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "dynamics/scene/load_scene.hpp"
 #include "view/source.hpp"
@@ -70,6 +71,29 @@ TEST(Skeleton, WritesAPoseThatReadsBackToTheSameNumbers) {
   EXPECT_EQ(json["session"], "4611686018427387904");
   EXPECT_EQ(json["frames"].size(), 7 * 7u);
   EXPECT_TRUE(json["traces"].is_null());
+  pose.note = "a \"quoted\" note";
+  EXPECT_EQ(nlohmann::json::parse(pose_json(robot, pose, ""))["note"], pose.note);
+}
+
+// There and back on a line of 1 m, and 1 m off it at the end: laps are drawn once, in no more points than asked for.
+TEST(Path, LeavesOutWhereItWasBefore) {
+  std::vector<Eigen::Vector3d> path = {Eigen::Vector3d::Constant(std::nan(""))};
+  for (int lap = 0; lap < 3; ++lap) {
+    for (int i = 0; i <= 1000; ++i) path.emplace_back(0.001 * i, 0, 0);
+    for (int i = 1000; i >= 0; --i) path.emplace_back(0.001 * i, 0, 0);
+  }
+  path.emplace_back(0, 1, 0);
+  const auto points = path_json(path, 100);
+  ASSERT_LE(points.size(), 100u);
+  ASSERT_GE(points.size(), 30u);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) EXPECT_GT(points[i][0], points[i - 1][0]) << i;
+  EXPECT_EQ(points.front(), nlohmann::json({0, 0, 0}));
+  EXPECT_EQ(points.back(), nlohmann::json({0, 1, 0}));
+}
+
+TEST(Path, MayStandStill) {
+  EXPECT_EQ(path_json({Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones()}), nlohmann::json::parse("[[1, 1, 1]]"));
+  EXPECT_EQ(path_json({}), nlohmann::json::array());
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ json since(const Traces& traces, std::int64_t from, std::size_t most_points = 10
 
 TEST(Traces, GivesEachReaderWhatItHasMissed) {
   const Traces traces = of({1, 2, 3, 4});
-  EXPECT_EQ(since(traces, 1), json::parse(R"({"t": [0.001, 0.002, 0.003], "error": [2, 3, 4], "tau": [[-2, -3, -4]]})"));
-  EXPECT_EQ(since(traces, 4), json::parse(R"({"t": [], "error": [], "tau": [[]]})"));
+  EXPECT_EQ(since(traces, 1), json::parse(R"({"t": [0.001, 0.002, 0.003], "error": [2, 3, 4], "tau": [[-2, -3, -4]], "way": []})"));
+  EXPECT_EQ(since(traces, 4), json::parse(R"({"t": [], "error": [], "tau": [[]], "way": []})"));
 }
 
 TEST(Traces, KeepsTheLatest) {
@@ -54,6 +54,21 @@ TEST(Traces, LosesNoPeakToASlowReader) {
 TEST(Traces, SaysNullWhereNothingIsKnown) {
   EXPECT_EQ(since(of({NAN, 1}), 0)["error"], json::parse("[null, 1]"));
   EXPECT_EQ(since(of({NAN, NAN, NAN, NAN}), 0, 2)["error"], json::parse("[null, null]"));
+}
+
+// By hand: of ticks 0 to 9, 4 at most, the last among them: 1, 4, 6, 9.
+TEST(Traces, GivesTheWayWithItsEnd) {
+  Traces traces(1, 100);
+  for (int k = 0; k < 10; ++k)
+    traces.add({.t = 0.001 * k, .tau = {0}, .place = {static_cast<float>(k), 0.5F, -2}});
+  traces.add({.t = 0.010, .tau = {0}});
+  EXPECT_EQ(since(traces, 8)["way"], json({0.008, 8, 0.5, -2, 0.009, 9, 0.5, -2}));
+  Traces known(1, 100);
+  for (const Trace& tick : traces.all())
+    if (!std::isnan(tick.place[0])) known.add(tick);
+  const auto way = since(known, 0, 4)["way"].get<std::vector<double>>();
+  ASSERT_EQ(way.size(), 16u);
+  EXPECT_EQ((std::vector<double>{way[1], way[5], way[9], way[13]}), (std::vector<double>{1, 4, 6, 9}));
 }
 
 }  // namespace

@@ -2,35 +2,19 @@
 // browser that never reads stands by, the viewer is started again, and at last shows the kept run. Prints what it
 // measured, or throws.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import http from 'node:http';
 import net from 'node:net';
 import { opened, webgl } from './browser.mjs';
+import { endAll, ended, started, viewing as viewer } from './viewer.mjs';
 
 const [executable, mixloop, experiment, folder] = process.argv.slice(2);
 const sets = ['--set', 'path.duration=2 s', '--set', 'expect={}'];
-const children = [];
+const viewing = (what, port) => viewer(mixloop, what, '--port', String(port), ...(what === experiment ? sets : []));
+const run = (out, ...more) => started(mixloop, 'run', experiment, ...sets, ...more, '--speed', '1', '--json', '--out', out);
 
-/** A command that runs; `words(n)` waits for its n-th line on stdout or stderr. */
-function started(...words) {
-  const child = spawn(mixloop, words, { stdio: ['ignore', 'pipe', 'inherit'] });
-  children.push(child);
-  child.over = new Promise((resolve) => child.on('exit', (code, signal) => resolve(code ?? signal)));
-  return child;
-}
-
-async function viewing(what, port) {
-  const child = started('view', what, '--port', String(port), '--json', ...(what === experiment ? sets : []));
-  let text = '';
-  for await (const part of child.stdout) {
-    text += part;
-    if (text.includes('}')) break;
-  }
-  return { child, ...JSON.parse(text) };
-}
-
-const run = (out) => started('run', experiment, ...sets, '--speed', '1', '--json', '--out', out);
+/** SHA-256 of the trajectory that a folder keeps. */
+const sha = (out) => JSON.parse(readFileSync(`${out}/result.json`, 'utf8')).trajectory_sha256;
 
 /** The status of a request with these headers. */
 function status(url, headers, method = 'GET') {
@@ -119,17 +103,29 @@ async function live(tab, complaints) {
   await tab.waitForFunction(() => window.mixloop.drawn > 1);
   const before = await picture(tab);
   const begun = await tab.evaluate(() => [performance.now(), window.mixloop.drawn, window.mixloop.poses]);
+  // Whatever a page says, the plant hears nothing of it.
+  for (const said of ['7', '-1', '9223372036854775808', 'stop', '{"tau":[9,9,9]}', ''])
+    await tab.evaluate((text) => window.mixloop.connection.socket.send(text), said);
   const poses = [];
   for (let i = 0; i < 12; ++i) {
     poses.push(await pose(tab));
     await tab.waitForTimeout(60);
   }
-  const ended = await tab.evaluate(() => [performance.now(), window.mixloop.drawn, window.mixloop.poses]);
+  const after = await tab.evaluate(() => [performance.now(), window.mixloop.drawn, window.mixloop.poses]);
   await changed(tab, before);
   assert.equal(await first.over, 0);
   agree(poses, `${folder}/first`);
+  assert.equal(await started(mixloop, 'simulate', experiment, ...sets, '--json', '--out', `${folder}/alone`).over, 0);
+  assert.equal(sha(`${folder}/first`), sha(`${folder}/alone`), 'the run is the same as without a viewer');
+  assert.equal(await tab.textContent('#notes'), '');
+  const { travelled, times } = await tab.evaluate(() => {
+    const { drawing } = window.mixloop;
+    return { travelled: drawing.travelled, times: [...drawing.times.slice(0, drawing.travelled)] };
+  });
+  assert.ok(travelled > 100, `${travelled} places of the path travelled`); // 0.9 m at 0.5 mm or more, whatever the frame rate
+  assert.deepEqual(times, [...times].sort((a, b) => a - b));
   assert.ok(new Set(poses.map(({ k }) => k)).size > 3, 'poses follow each other');
-  const [ms, drawn, received] = ended.map((x, i) => x - begun[i]);
+  const [ms, drawn, received] = after.map((x, i) => x - begun[i]);
   const rates = { frames_per_second: (1000 * drawn) / ms, poses_per_second: (1000 * received) / ms };
 
   // The plant again, beside a browser that never reads: the page follows the new session.
@@ -146,15 +142,14 @@ async function live(tab, complaints) {
   sleeper.destroy();
 
   // The viewer again, on its port: the page comes back by itself. That it was gone is all that may be complained of.
-  view.child.kill('SIGINT');
-  assert.equal(await view.child.over, 0);
+  assert.equal(await ended(view), 0);
   await tab.waitForSelector('#status[data-state=closed]');
   view = await viewing(experiment, new URL(view.url).port);
-  const third = run(`${folder}/third`);
+  const third = run(`${folder}/third`, '--set', 'path.duration=3 s');
   await past(tab, 50, last.session);
+  await tab.waitForFunction(() => document.getElementById('notes').textContent.includes('another experiment: its path'));
   assert.equal(await third.over, 0);
-  view.child.kill('SIGINT');
-  assert.equal(await view.child.over, 0);
+  assert.equal(await ended(view), 0);
   const others = complaints.splice(0).filter((text) => !/WebSocket connection to .* failed/.test(text));
   assert.deepEqual(others, [], 'the console is silent');
   return rates;
@@ -166,7 +161,7 @@ async function log(tab) {
   await past(tab, -1);
   await tab.focus('#canvas');
   await tab.keyboard.press(' ');
-  assert.equal(await tab.getAttribute('#pause', 'aria-pressed'), 'true');
+  assert.equal(await tab.textContent('#pause'), 'Play');
   await tab.evaluate(() => {
     const scrub = document.getElementById('scrub');
     scrub.value = 1500;
@@ -190,8 +185,7 @@ async function log(tab) {
   const turned = await picture(tab);
   await tab.click('[data-camera=top]');
   await changed(tab, turned);
-  view.child.kill('SIGINT');
-  assert.equal(await view.child.over, 0);
+  assert.equal(await ended(view), 0);
 }
 
 try {
@@ -201,6 +195,6 @@ try {
     complaints.splice(0, complaints.length, ...complaints.filter((text) => !/WebSocket|net::ERR_CONNECTION/.test(text)));
   }, webgl);
 } finally {
-  for (const child of children) if (child.exitCode === null) child.kill('SIGTERM');
+  endAll();
 }
 console.log('held');

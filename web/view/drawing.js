@@ -1,8 +1,10 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { h, shown } from '../shared/dom.js';
 import { cssColour, onThemeChange } from '../shared/theme.js';
 
-const kTrail = 4000; // points of the path travelled
+const kTrail = 8000; // points of the path travelled, the latest
+const kTurn = 1.5 * Math.PI; // how far the arc of the largest torque goes
 
 /** The mechanism, drawn: poses come in as the server works them out. */
 export class Drawing {
@@ -19,6 +21,7 @@ export class Drawing {
     this.look('space');
     this.controls.addEventListener('change', () => (this.changed = true));
     this.materials = {};
+    this.tags = [];
     this.build(path);
     this.recolour();
     onThemeChange(() => this.recolour());
@@ -49,7 +52,9 @@ export class Drawing {
     const sun = new THREE.DirectionalLight(0xffffff, 1.6);
     sun.position.set(2, -3, 4);
     space.add(sun);
-    this.grid = new THREE.GridHelper(2 * reach, 20);
+    this.cell = niceStep(reach / 8);
+    const cells = 2 * Math.ceil(reach / this.cell);
+    this.grid = new THREE.GridHelper(cells * this.cell, cells);
     this.grid.rotation.x = Math.PI / 2;
     space.add(this.grid);
 
@@ -78,20 +83,55 @@ export class Drawing {
     this.hand.scale.setScalar(1.7 * size);
     this.goal = mesh(new THREE.TorusGeometry(2.6 * size, 0.35 * size, 8, 32), 'desired');
     this.closures = this.mechanism.closures.map(() => [mesh(bar, 'closure'), mesh(bar, 'closure')]);
-    this.torques = this.mechanism.motors.map((motor) => ({ joint: motor.joint, linear: motor.linear, most: 1e-9, mesh: null, value: null }));
+    this.buildAxes();
+    this.torques = this.mechanism.motors.map((motor, i) => this.torqueOf(motor, i, bar));
+    this.material('backward');
 
     this.path = new THREE.Line(new THREE.BufferGeometry().setFromPoints(path.map((p) => new THREE.Vector3(...p))), this.lineMaterial('path', { dashSize: 0.02 * reach, gapSize: 0.012 * reach }));
     this.path.computeLineDistances();
     this.trail = new THREE.Line(new THREE.BufferGeometry(), this.lineMaterial('trail'));
     this.trail.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * kTrail), 3));
     this.trail.frustumCulled = false;
+    this.times = new Float64Array(kTrail);
     this.forget();
     space.add(this.path, this.trail);
+  }
+
+  /** The axes of frame 0, a few squares of the grid long. */
+  buildAxes() {
+    const long = 3 * this.cell;
+    const ends = [[long, 0, 0], [0, long, 0], [0, 0, long]].map((place) => new THREE.Vector3(...place));
+    const corners = ends.flatMap((end) => [new THREE.Vector3(), end]);
+    this.space.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(corners), this.lineMaterial('axes')));
+    ends.forEach((end, i) => this.tag('xyz'[i], () => end));
+  }
+
+  /** A word beside a place: `at` says where, or null. */
+  tag(word, at) {
+    const element = h('span', { class: 'tag', 'aria-hidden': 'true' }, word);
+    this.canvas.parentElement.append(element);
+    this.tags.push({ element, at });
+  }
+
+  /** An arc about the joint's axis (an arrow along it, for a slide) with a tip. */
+  torqueOf(motor, i, bar) {
+    const { reach } = this;
+    const group = new THREE.Group();
+    const radius = (0.075 + 0.025 * i) * reach; // motors may share an axis
+    const material = this.material('forward');
+    const shaft = new THREE.Mesh(motor.linear ? bar : new THREE.BufferGeometry(), material);
+    const tip = new THREE.Mesh(new THREE.ConeGeometry(0.022 * reach, 0.05 * reach, 20).translate(0, 0.025 * reach, 0), material);
+    group.add(shaft, tip);
+    group.visible = false;
+    this.space.add(group);
+    this.tag(motor.name, () => (group.visible ? tip.getWorldPosition(new THREE.Vector3()) : null));
+    return { joint: motor.joint, linear: motor.linear, most: 1e-9, value: null, group, shaft, tip, radius };
   }
 
   /** The path travelled begins again. */
   forget() {
     this.travelled = 0;
+    this.until = -Infinity;
     this.trail.geometry.setDrawRange(0, 0);
   }
 
@@ -105,6 +145,7 @@ export class Drawing {
       desired: cssColour('--desired'),
       path: cssColour('--desired'),
       closure: cssColour('--closure'),
+      axes: cssColour('--quiet'),
       forward: cssColour('--forward'),
       backward: cssColour('--backward'),
     };
@@ -148,44 +189,71 @@ export class Drawing {
     this.goal.visible = pose.desired[0] !== null;
     if (this.goal.visible) this.goal.position.set(...pose.desired);
     this.goal.quaternion.copy(this.camera.quaternion);
-    this.torques.forEach((torque, i) => this.showTorque(torque, pose.tau[i], frames, i));
+    this.torques.forEach((torque, i) => this.showTorque(torque, pose.tau[i], frames));
+    this.showTrail(pose.t);
     this.changed = true;
   }
 
-  /** An arc about the joint's axis (an arrow along it, for a slide): its length the torque over the largest seen. */
-  showTorque(torque, value, frames, i) {
-    if (torque.joint < 0) return;
-    if (torque.mesh) this.space.remove(torque.mesh);
-    torque.mesh?.geometry.dispose();
-    torque.mesh = null;
-    torque.value = value;
-    if (value === null || value === 0) return;
-    torque.most = Math.max(torque.most, Math.abs(value));
-    const share = value / torque.most;
-    const radius = (0.05 + 0.015 * i) * this.reach; // motors may share an axis
-    const geometry = torque.linear
-      ? new THREE.ConeGeometry(0.02 * this.reach, 0.12 * this.reach * Math.abs(share), 16).rotateX(Math.sign(value) * Math.PI / 2)
-      : new THREE.TorusGeometry(radius, 0.009 * this.reach, 8, 48, Math.max(0.02, 1.75 * Math.PI * Math.abs(share)));
-    if (!torque.linear && value < 0) geometry.rotateX(Math.PI);
-    const mesh = new THREE.Mesh(geometry, this.material(value > 0 ? 'forward' : 'backward'));
-    mesh.material.color.set(cssColour(value > 0 ? '--forward' : '--backward'));
-    const at = frames[this.mechanism.frames[torque.joint].parent];
-    mesh.position.copy(at.at);
-    mesh.quaternion.copy(at.turn);
-    torque.mesh = mesh;
-    this.space.add(mesh);
+  /** The largest torque of each motor, that the arcs are drawn by. */
+  scaleTorques(most) {
+    this.torques.forEach((torque, i) => (torque.most = Math.max(torque.most, most[i])));
   }
 
-  /** Adds a place to the path travelled. */
-  travel(place) {
-    const positions = this.trail.geometry.attributes.position;
-    if (this.travelled === kTrail) {
-      positions.array.copyWithin(0, 3);
-      --this.travelled;
+  /** The length of the arc is the torque over the largest seen, its direction the sign. */
+  showTorque(torque, value, frames) {
+    const { group, shaft, tip, radius } = torque;
+    torque.value = value;
+    group.visible = torque.joint >= 0 && value !== null && value !== 0;
+    if (!group.visible) return;
+    torque.most = Math.max(torque.most, Math.abs(value));
+    const share = Math.abs(value) / torque.most;
+    shaft.material = tip.material = this.materials[value > 0 ? 'forward' : 'backward'];
+    if (torque.linear) {
+      const length = 0.3 * this.reach * share;
+      shaft.scale.set(0.009 * this.reach, 0.009 * this.reach, length);
+      tip.position.set(0, 0, length);
+      tip.rotation.set(Math.PI / 2, 0, 0);
+    } else {
+      const angle = Math.max(0.01, kTurn * share);
+      shaft.geometry.dispose();
+      shaft.geometry = new THREE.TorusGeometry(radius, 0.009 * this.reach, 8, 48, angle);
+      tip.position.set(radius * Math.cos(angle), radius * Math.sin(angle), 0);
+      tip.rotation.set(0, 0, angle);
     }
-    positions.setXYZ(this.travelled++, ...place);
+    const at = frames[this.mechanism.frames[torque.joint].parent];
+    group.position.copy(at.at);
+    group.quaternion.copy(at.turn);
+    if (value < 0) group.rotateX(Math.PI);
+  }
+
+  /** Adds to the path travelled: t, x, y, z a place; what moved less than anyone can see is left out. */
+  travel(way) {
+    const positions = this.trail.geometry.attributes.position;
+    for (let i = 0; i < way.length; i += 4) {
+      const [x, y, z] = way.slice(i + 1, i + 4);
+      const last = 3 * (this.travelled - 1);
+      const moved = last < 0 ? Infinity : Math.hypot(x - positions.array[last], y - positions.array[last + 1], z - positions.array[last + 2]);
+      if (moved < 5e-4 * this.reach) continue;
+      if (this.travelled === kTrail) this.dropOldest(kTrail / 4);
+      this.times[this.travelled] = way[i];
+      positions.setXYZ(this.travelled++, x, y, z);
+    }
     positions.needsUpdate = true;
-    this.trail.geometry.setDrawRange(0, this.travelled);
+    this.showTrail(this.until);
+  }
+
+  dropOldest(count) {
+    this.trail.geometry.attributes.position.array.copyWithin(0, 3 * count);
+    this.times.copyWithin(0, count);
+    this.travelled -= count;
+  }
+
+  /** Shows the path travelled up to time t. */
+  showTrail(t) {
+    this.until = t;
+    let count = this.travelled;
+    while (count > 0 && this.times[count - 1] > t) --count;
+    this.trail.geometry.setDrawRange(0, count);
   }
 
   resize() {
@@ -242,8 +310,30 @@ export class Drawing {
     if (!this.changed) return false;
     this.changed = false;
     this.renderer.render(this.space, this.camera);
+    this.placeTags();
     return true;
   }
+
+  placeTags() {
+    const { clientWidth, clientHeight } = this.canvas;
+    for (const { element, at } of this.tags) {
+      const place = at()?.clone().project(this.camera);
+      element.hidden = !place || place.z > 1;
+      if (!element.hidden)
+        element.style.transform = `translate(${(((place.x + 1) / 2) * clientWidth).toFixed(1)}px, ${(((1 - place.y) / 2) * clientHeight).toFixed(1)}px)`;
+    }
+  }
+
+  /** What a square of the grid is, in words. */
+  get gridSize() {
+    return `${shown(this.cell)} m`;
+  }
+}
+
+/** The largest of 1, 2, 5, 10, ... that is not above x. */
+function niceStep(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return power * [5, 2, 1].find((step) => step * power <= x);
 }
 
 /** Lays a bar (of length 1 along z) from one place to another; one without length is not drawn. */

@@ -72,10 +72,7 @@ export class LivePlots {
   }
 
   /** Takes what a pose brought. */
-  add({ t, traces }) {
-    this.now = t;
-    if (!traces) return;
-    if (this.isLog) this.clear();
+  add(traces, t) {
     const { data } = this;
     data.t.push(...traces.t);
     data.error.push(...traces.error.map((e) => (e === null ? null : e * 1e3)));
@@ -85,13 +82,14 @@ export class LivePlots {
     if (old > 200) for (const list of [data.t, data.error, ...data.tau]) list.splice(0, old);
   }
 
-  draw() {
+  /** Shows what there is, about time t. */
+  draw(t) {
     const { data } = this;
-    const end = this.now ?? 0;
+    const end = (this.now = t);
     const range = this.isLog ? null : { min: Math.max(0, end - kWindow), max: Math.max(kWindow / 10, end) };
     const show = (plot, lists) => {
       if (this.isLog && plot.data[0].length === data.t.length) return plot.redraw(false, false);
-      plot.setData([data.t, ...lists], this.isLog);
+      plot.setData([data.t, ...lists].map((list) => list.slice()), this.isLog); // what it draws stays as it is while paused
       if (range) plot.batch(() => plot.setScale('x', range));
     };
     show(this.errors, [data.error]);
