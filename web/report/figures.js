@@ -53,6 +53,51 @@ function ofCoordinates(runs, names, title, units, curves) {
   });
 }
 
+/** What the plant says of its timing over time. */
+function timing(each) {
+  const quantiles = (what) => [
+    { curve: `${what}_max`, name: 'longest', scale: 1e6, colour: 1, dash: 2 },
+    { curve: `${what}_p99`, name: '99th percentile', scale: 1e6, colour: 2, dash: 1 },
+    { curve: `${what}_p50`, name: 'median', scale: 1e6, colour: 0 },
+  ];
+  const since = { over: 'timing_time', logarithmic: true, note: 'TIMING: of all ticks since the run began.' };
+  return [
+    ...each('Round trip, STATE to COMMAND', 'Time (µs)', quantiles('round_trip'), since),
+    ...each('Wake-up of the plant, after the tick was due', 'Time (µs)', quantiles('wake_up'), since),
+    ...each(
+      'What came late',
+      'Count (ticks)',
+      [
+        { curve: 'missed', name: 'commands missed', colour: 1 },
+        { curve: 'overruns', name: 'plant late', colour: 2, dash: 1 },
+        { curve: 'resent', name: 'states sent again', colour: 0, dash: 2 },
+      ],
+      { over: 'timing_time', note: 'TIMING: since the run began. In lockstep a late command is no miss: the state is sent again.' },
+    ),
+  ];
+}
+
+/** The path seen along each axis, desired and actual. */
+function projections(runs) {
+  const seen = [['x', 'y'], ['x', 'z'], ['y', 'z']];
+  const kinds = [['actual', 0], ['desired', 1]];
+  return seen
+    .map(([across, up]) => ({
+      title: `Path of the end effector, ${up} over ${across}`,
+      axes: [across, up],
+      lines: runs.flatMap((run) =>
+        kinds.map(([kind, dash]) => ({
+          run,
+          dash,
+          curves: [across, up].map((axis) => `position_${axis}_${kind}`),
+          name: runs.length > 1 ? `${run.label}: ${kind}` : kind,
+          colour: runs.length > 1 ? run.index : 1 - dash,
+        })),
+      ).filter(({ run, curves }) => curves.every((curve) => run.has(curve))),
+    }))
+    .filter(({ lines }) => lines.length > 0);
+}
+
 /** The sections: [{ id, title, figures: [{ title, label, lines, over? }] }]. */
 export function sections(runs) {
   const { motors, coordinates } = runs.reduce((a, b) => (b.names.coordinates.length > a.names.coordinates.length ? b : a)).names;
@@ -91,6 +136,7 @@ export function sections(runs) {
           ],
           { over: 'path_length', note: 'Along: positive where the end effector is ahead. Across: the distance from the path.' },
         ),
+        ...projections(runs),
       ],
     },
     {
@@ -147,12 +193,19 @@ export function sections(runs) {
     {
       id: 'commands',
       title: 'Commands',
-      figures: one(
-        'Age of commands',
-        'STATE to COMMAND (µs)',
-        [{ curve: 'command_age', name: 'age', scale: 1e6, colour: 0 }],
-        { note: 'As the logger received the two messages, or in real time as the plant itself did; a gap is a tick whose command did not come.' },
-      ),
+      figures: [
+        ...one(
+          'Age of commands',
+          'STATE to COMMAND (µs)',
+          [{ curve: 'command_age', name: 'age', scale: 1e6, colour: 0 }],
+          {
+            note:
+              'As the logger received the two messages, or in real time as the plant itself did; a gap is a tick whose ' +
+              'command did not come.',
+          },
+        ),
+        ...timing(each),
+      ],
     },
   ];
 }

@@ -6,6 +6,7 @@ import { readRuns } from '../shared/runs.js';
 import { onThemeChange, themeButton } from '../shared/theme.js';
 import { sections } from './figures.js';
 import { Extent, Plot } from './plot.js';
+import { Projection } from './projection.js';
 import * as words from './words.js';
 
 const content = document.getElementById('content');
@@ -72,7 +73,9 @@ async function start(data) {
   const papers = runs.find(words.isThePapers);
   if (papers) content.append(words.paperTable(papers));
   for (const { id, title: name, figures } of sections(runs)) {
-    const own = figures.map((figure) => new Plot(figure, figure.over ? path_length : time));
+    const own = figures.map((figure) =>
+      figure.axes ? new Projection(figure, time) : new Plot(figure, figure.over === 'path_length' ? path_length : time),
+    );
     plots.push(...own);
     content.append(
       section(id, name, id === 'commands' ? words.commandsTable(runs) : null, h('div', { class: 'figures' }, own.map((plot) => plot.element))),

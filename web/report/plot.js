@@ -2,7 +2,7 @@ import uPlot from 'uplot';
 import { h, shown } from '../shared/dom.js';
 import { cssColour, dashes, palettes, theme } from '../shared/theme.js';
 
-const kMostPoints = 3000; // a curve, drawn at once: more than a screen has columns
+export const kMostPoints = 3000; // a curve, drawn at once: more than a screen has columns
 
 /** The stretch of x that plots share: time, or the distance along the path. */
 export class Extent {
@@ -42,8 +42,24 @@ export class Extent {
   }
 }
 
+/** An axis as all plots have it. */
+export function axis(label, extra) {
+  return {
+    label,
+    labelSize: 22,
+    labelGap: 2,
+    font: '12px system-ui, "DejaVu Sans", sans-serif',
+    labelFont: '13px system-ui, "DejaVu Sans", sans-serif',
+    stroke: () => cssColour('--quiet'),
+    grid: { stroke: () => cssColour('--grid'), width: 1 },
+    ticks: { stroke: () => cssColour('--line'), width: 1 },
+    values: (_, splits) => splits.map((value) => (value === null ? '' : shown(value, 5))),
+    ...extra,
+  };
+}
+
 /** The first index from which on `at(i)` is not below x. */
-function bisect(at, length, x) {
+export function bisect(at, length, x) {
   let from = 0;
   let to = length;
   while (from < to) {
@@ -73,25 +89,15 @@ export class Plot {
     this.box.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
   }
 
-  /** Draws it; the element is in the document now. */
-  start() {
+  options() {
     const { spec, extent } = this;
-    const axis = (label, extra) => ({
-      label,
-      labelSize: 22,
-      labelGap: 2,
-      font: '12px system-ui, "DejaVu Sans", sans-serif',
-      labelFont: '13px system-ui, "DejaVu Sans", sans-serif',
-      stroke: () => cssColour('--quiet'),
-      grid: { stroke: () => cssColour('--grid'), width: 1 },
-      ticks: { stroke: () => cssColour('--line'), width: 1 },
-      values: (_, splits) => splits.map((value) => shown(value, 5)),
-      ...extra,
-    });
-    const options = {
+    return {
       width: this.box.clientWidth || 600,
       height: 270,
-      scales: { x: { time: false, auto: false, range: () => [extent.min, extent.max] } },
+      scales: {
+        x: { time: false, auto: false, range: () => [extent.min, extent.max] },
+        y: spec.logarithmic ? { distr: 3 } : {},
+      },
       axes: [axis(`${extent.name} (${extent.unit})`, { size: 34 }), axis(spec.label, { size: 66 })],
       legend: { live: true },
       cursor: {
@@ -127,7 +133,11 @@ export class Plot {
         })),
       ],
     };
-    this.plot = new uPlot(options, this.data(), this.box);
+  }
+
+  /** Draws it; the element is in the document now. */
+  start() {
+    this.plot = new uPlot(this.options(), this.data(), this.box);
     this.legendByKeyboard();
     this.describe();
     this.stale = false;
@@ -194,10 +204,15 @@ export class Plot {
     return [data[0], ...this.spec.lines.map((line) => data[1 + joined.indexOf(line)])];
   }
 
+  /** Those of the legend's rows that are curves: not the abscissa's. */
+  legendRows() {
+    const [abscissa, ...rows] = this.plot.root.querySelectorAll('.u-legend .u-series');
+    abscissa.querySelector('th').style.pointerEvents = 'none';
+    return rows;
+  }
+
   legendByKeyboard() {
-    const rows = [...this.plot.root.querySelectorAll('.u-legend .u-series')];
-    rows[0].querySelector('th').style.pointerEvents = 'none';
-    rows.slice(1).forEach((row, i) => {
+    this.legendRows().forEach((row, i) => {
       const head = row.querySelector('th');
       const say = () => head.setAttribute('aria-pressed', String(this.plot.series[i + 1].show));
       head.tabIndex = 0;

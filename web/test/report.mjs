@@ -35,6 +35,18 @@ await opened(executable, async (browser, tab) => {
   for (const part of ['13.2066936 mm', '12 mm', '✓ held', 'max_position_error', 'SHA-256', 'Processor', 'Seeds', 'feedforward_at'])
     assert.ok(text.includes(part), part);
 
+  // The path from three sides: the trajectory's places, a metre as long along both axes.
+  for (const [across, up] of ['xy', 'xz', 'yz']) {
+    const seen = await tab.evaluate(([x, y]) => {
+      const { plot } = window.mixloop.plots.find(({ spec }) => spec.axes?.join('') === x + y);
+      const pixels = (key, to) => Math.abs(plot.valToPos(plot.scales[key].min + to, key, true) - plot.valToPos(plot.scales[key].min, key, true));
+      return { metres: [pixels('x', 0.1), pixels('y', 0.1)], actual: plot.data[1].map((list) => [...list]), desired: plot.data[2].map((list) => [...list]) };
+    }, [across, up]);
+    assert.ok(Math.abs(seen.metres[0] / seen.metres[1] - 1) < 0.02, `${seen.metres} pixels`); // of whole pixels
+    for (const kind of ['actual', 'desired'])
+      assert.deepEqual(seen[kind], [across, up].map((axis) => column(`position_${axis}_${kind}`).map(Math.fround)));
+  }
+
   // The highest peak is drawn, however far one has zoomed out.
   const drawn = await tab.evaluate(() => {
     const { plot } = window.mixloop.plots.find((one) => one.spec.title.includes('over time'));
