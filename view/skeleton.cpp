@@ -35,14 +35,8 @@ Eigen::Vector3d Skeleton::end_effector() const {
                           model_.end_effector_point);
 }
 
-// The description says which frames make the tree, not where its loops close: a leaf whose origin stays where it is
-// in another body's frame, at home and at poses around it, is joined to that body there.
-std::vector<Skeleton::Closure> Skeleton::find_closures() {
-  const std::size_t count = ws_.frames.size();
-  std::vector<bool> is_leaf(count, true);
-  for (const auto& link : model_.links) is_leaf[static_cast<std::size_t>(link.parent)] = false;
-  is_leaf[static_cast<std::size_t>(scene_->end_effector.frame)] = false;
-
+// Frames at home and at a few poses around it, a list a pose.
+std::vector<std::vector<Mat34<double>>> Skeleton::some_poses() {
   constexpr int kPoses = 4;
   std::vector<std::vector<Mat34<double>>> poses;
   for (int pose = 0; pose < kPoses; ++pose) {
@@ -52,21 +46,40 @@ std::vector<Skeleton::Closure> Skeleton::find_closures() {
     poses.emplace_back();
     for (const auto& frame : ws_.frames) poses.back().push_back(frame.T_0);
   }
+  return poses;
+}
+
+// The description says which frames make the tree, not where its loops close: a leaf whose origin stays where it is
+// in another body's frame, at all of some poses, is joined to that body there. Bodies that only ever move in parallel
+// stand still in each other's frames too: of several the nearest is it.
+std::vector<Skeleton::Closure> Skeleton::find_closures() {
+  const std::size_t count = ws_.frames.size();
+  std::vector<bool> is_leaf(count, true);
+  for (const auto& link : model_.links) is_leaf[static_cast<std::size_t>(link.parent)] = false;
+  is_leaf[static_cast<std::size_t>(scene_->end_effector.frame)] = false;
+
+  const auto poses = some_poses();
+  const auto seen = [](const auto& pose, std::size_t leaf, std::size_t on) {
+    return seen_from(pose[on], pose[leaf].col(3));
+  };
   const auto stands_still = [&](std::size_t leaf, std::size_t on) {
-    const Eigen::Vector3d at_home = seen_from(poses[0][on], poses[0][leaf].col(3));
     return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) {
-      return (seen_from(pose[on], pose[leaf].col(3)) - at_home).norm() < kSame;
+      return (seen(pose, leaf, on) - seen(poses[0], leaf, on)).norm() < kSame;
     });
   };
   std::vector<Closure> closures;
   for (std::size_t leaf = 1; leaf < count; ++leaf) {
-    if (!is_leaf[leaf]) continue;
     const auto parent = static_cast<std::size_t>(model_.links[leaf - 1].parent);
-    for (std::size_t on = 0; on < count; ++on)
-      if (on != leaf && on != parent && stands_still(leaf, on)) {
-        closures.push_back({leaf, on});
-        break;
-      }
+    std::size_t nearest = leaf;
+    for (std::size_t on = 0; is_leaf[leaf] && on < count; ++on) {
+      if (on == leaf || on == parent || !stands_still(leaf, on)) continue;
+      if (nearest == leaf || seen(poses[0], leaf, on).norm() < seen(poses[0], leaf, nearest).norm() - kSame)
+        nearest = on;
+    }
+    const bool is_known = std::any_of(closures.begin(), closures.end(), [&](const Closure& one) {
+      return one.leaf == nearest && one.on == leaf;  // two leaves that meet are one closure
+    });
+    if (nearest != leaf && !is_known) closures.push_back({leaf, nearest});
   }
   return closures;
 }

@@ -39,6 +39,7 @@ class Skeleton {
   const std::vector<Closure>& closures() const { return closures_; }
 
  private:
+  std::vector<std::vector<Mat34<double>>> some_poses();
   std::vector<Closure> find_closures();
   std::vector<int> joints_of_motors();
 

@@ -48,7 +48,13 @@ TEST(Skeleton, FindsWhereThePantographCloses) {
 }
 
 TEST(Skeleton, ClosesEveryLoopOfTheScenes) {
-  EXPECT_EQ(of("double_four_bar").closures().size(), 2u);
+  const Skeleton bars = of("double_four_bar");  // all lying bars move in parallel; each ends on the next standing one
+  ASSERT_EQ(bars.closures().size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& [leaf, on] = bars.closures()[i];
+    EXPECT_EQ(bars.scene().frames[leaf], "lying " + std::to_string(i + 1));
+    EXPECT_EQ(bars.scene().frames[on], "standing " + std::to_string(i + 2));
+  }
   EXPECT_EQ(of("spatial_slider_crank").closures().size(), 1u);
 }
 

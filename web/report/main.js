@@ -48,15 +48,13 @@ function printing(plots) {
     for (const details of document.querySelectorAll('main details')) details.open = true;
     for (const plot of plots) {
       plot.refresh();
-      plot.plot.setSize({ width: 640, height: 230 });
+      plot.size(640, plot.height - 40);
     }
   });
   window.addEventListener('afterprint', () => {
     if (chosen) document.documentElement.dataset.theme = chosen;
     else delete document.documentElement.dataset.theme;
-    for (const plot of plots) {
-      plot.plot.setSize({ width: plot.box.clientWidth, height: 270 });
-    }
+    for (const plot of plots) plot.size(plot.box.clientWidth, plot.height);
   });
 }
 

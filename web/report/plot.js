@@ -76,7 +76,7 @@ export function bisect(at, length, x) {
  */
 export class Plot {
   constructor(spec, extent) {
-    Object.assign(this, { spec, extent, visible: false, stale: true });
+    Object.assign(this, { spec, extent, visible: false, stale: true, height: 270 });
     extent.plots.push(this);
     this.box = h('div', { class: 'plot', tabindex: 0, role: 'group', 'aria-roledescription': 'plot' });
     this.element = h(
@@ -93,7 +93,7 @@ export class Plot {
     const { spec, extent } = this;
     return {
       width: this.box.clientWidth || 600,
-      height: 270,
+      height: this.height,
       scales: {
         x: { time: false, auto: false, range: () => [extent.min, extent.max] },
         y: spec.logarithmic ? { distr: 3 } : {},
@@ -150,7 +150,11 @@ export class Plot {
 
   resize() {
     const width = this.box.clientWidth;
-    if (width > 0 && Math.abs(width - this.plot.width) > 1) this.plot.setSize({ width, height: 270 });
+    if (width > 0 && Math.abs(width - this.plot.width) > 1) this.size(width, this.height);
+  }
+
+  size(width, height) {
+    this.plot.setSize({ width, height });
   }
 
   refresh() {

@@ -7,13 +7,18 @@ import { axis, bisect, kMostPoints, Plot } from './plot.js';
  * dash }] }, both axes to one scale. The stretch of time that the other plots show is drawn.
  */
 export class Projection extends Plot {
+  constructor(spec, extent) {
+    super(spec, extent);
+    this.height = 330;
+  }
+
   options() {
     const { axes, lines } = this.spec;
     this.middle = [0, 1].map((i) => this.reach(i));
     return {
       mode: 2,
       width: this.box.clientWidth || 600,
-      height: 330,
+      height: this.height,
       scales: {
         x: { time: false, auto: false, range: (u) => this.range(u, 0) },
         y: { auto: false, range: (u) => this.range(u, 1) },
@@ -63,11 +68,9 @@ export class Projection extends Plot {
     this.refresh(); // now that the room for it is known
   }
 
-  resize() {
-    const width = this.box.clientWidth;
-    if (width === 0 || Math.abs(width - this.plot.width) <= 1) return;
-    this.plot.setSize({ width, height: 330 });
-    this.refresh();
+  size(width, height) {
+    super.size(width, height);
+    this.refresh(); // to one scale again
   }
 
   data() {

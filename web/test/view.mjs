@@ -104,8 +104,9 @@ async function live(tab, complaints) {
   const before = await picture(tab);
   const begun = await tab.evaluate(() => [performance.now(), window.mixloop.drawn, window.mixloop.poses]);
   // Whatever a page says, the plant hears nothing of it.
-  for (const said of ['7', '-1', '9223372036854775808', 'stop', '{"tau":[9,9,9]}', ''])
-    await tab.evaluate((text) => window.mixloop.connection.socket.send(text), said);
+  await tab.evaluate(() => {
+    for (const said of ['7', '-1', '9223372036854775808', 'stop', '{"tau":[9,9,9]}', '']) window.mixloop.connection.socket.send(said);
+  });
   const poses = [];
   for (let i = 0; i < 12; ++i) {
     poses.push(await pose(tab));
