@@ -23,6 +23,7 @@ Skeleton::Skeleton(std::shared_ptr<const Scene> scene, std::span<const double> p
   closures_ = find_closures();
   joints_ = joints_of_motors();
   place(scene_->home, 0);
+  for (const auto& frame : ws_.frames) reach_ = std::max(reach_, frame.T_0.col(3).norm());
 }
 
 void Skeleton::place(std::span<const double> psi, double t) {
@@ -131,6 +132,7 @@ nlohmann::json Skeleton::description() const {
           {"bodies", bodies},
           {"motors", motors},
           {"closures", closures},
+          {"reach", reach_},
           {"end_effector",
            {{"frame", scene_->end_effector.frame}, {"point", list(model_.end_effector_point)}}}};
 }

@@ -29,7 +29,8 @@ class Skeleton {
 
   /// What never moves, as the page reads it: frames (name, parent, joint's coordinate, prismatic), bodies (name,
   /// frame, mass, center_of_mass), motors (name, linear, joint: the frame at whose joint its torque is shown),
-  /// closures (see find_closures), end_effector {frame, point}.
+  /// closures (see find_closures), end_effector {frame, point}, reach (m: of the farthest
+  /// frame from frame 0's origin, at home).
   nlohmann::json description() const;
 
   /// Where a branch of the tree ends on another body: frame `leaf`'s origin stands still in frame `on`.
@@ -48,6 +49,7 @@ class Skeleton {
   Workspace<double> ws_;
   std::vector<Closure> closures_;
   std::vector<int> joints_;  ///< of each motor: a frame, or -1
+  double reach_ = 0;
 };
 
 }  // namespace mixloop

@@ -65,6 +65,11 @@ TEST(Skeleton, ShowsEachMotorsTorqueAtAJointThatItMoves) {
   EXPECT_THAT(joints, ElementsAre(1, 2, 4));  // q1, q2, q3: the shoulder's three
 }
 
+TEST(Skeleton, SaysHowFarItReaches) {
+  // Upright bars of 1 m on pivots 0, 1 and 2 m from the origin; the second lying one ends on the third.
+  EXPECT_NEAR(of("double_four_bar").description()["reach"], std::sqrt(5.0), 1e-15);
+}
+
 TEST(Skeleton, WritesAPoseThatReadsBackToTheSameNumbers) {
   Skeleton robot = of("mixed_loop_robot");
   Pose pose{.k = 12, .t = 0.012, .session = std::int64_t{1} << 62};

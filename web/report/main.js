@@ -86,7 +86,7 @@ async function start(data) {
   );
   for (const plot of plots) plot.start();
   toolbar(time);
-  onThemeChange(() => plots.forEach((plot) => plot.plot.redraw(false)));
+  onThemeChange(() => plots.forEach((plot) => plot.recolour()));
   printing(plots);
   // For the tests, and for whoever wants the numbers.
   window.mixloop = { runs, plots, time };

@@ -1,5 +1,6 @@
 import uPlot from 'uplot';
 import { h, shown } from '../shared/dom.js';
+import { paintLegend } from '../shared/legend.js';
 import { cssColour, dashes, palettes, theme } from '../shared/theme.js';
 
 export const kMostPoints = 3000; // a curve, drawn at once: more than a screen has columns
@@ -139,6 +140,7 @@ export class Plot {
   start() {
     this.plot = new uPlot(this.options(), this.data(), this.box);
     this.legendByKeyboard();
+    paintLegend(this.plot, this.spec.lines);
     this.describe();
     this.stale = false;
     new ResizeObserver(() => this.resize()).observe(this.box);
@@ -155,6 +157,12 @@ export class Plot {
 
   size(width, height) {
     this.plot.setSize({ width, height });
+  }
+
+  /** In the theme's colours. */
+  recolour() {
+    paintLegend(this.plot, this.spec.lines);
+    this.plot.redraw(false);
   }
 
   refresh() {

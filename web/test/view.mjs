@@ -120,8 +120,8 @@ async function live(tab, complaints) {
   assert.equal(sha(`${folder}/first`), sha(`${folder}/alone`), 'the run is the same as without a viewer');
   assert.equal(await tab.textContent('#notes'), '');
   const { travelled, times } = await tab.evaluate(() => {
-    const { drawing } = window.mixloop;
-    return { travelled: drawing.travelled, times: [...drawing.times.slice(0, drawing.travelled)] };
+    const { trail } = window.mixloop.drawing;
+    return { travelled: trail.travelled, times: [...trail.times.slice(0, trail.travelled)] };
   });
   assert.ok(travelled > 100, `${travelled} places of the path travelled`); // 0.9 m at 0.5 mm or more, whatever the frame rate
   assert.deepEqual(times, [...times].sort((a, b) => a - b));

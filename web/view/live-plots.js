@@ -1,5 +1,6 @@
 import uPlot from 'uplot';
 import { shown } from '../shared/dom.js';
+import { paintLegend } from '../shared/legend.js';
 import { cssColour, dashes, onThemeChange, palettes, theme } from '../shared/theme.js';
 
 const kWindow = 10; // s of a live run that the plots show
@@ -13,7 +14,8 @@ export class LivePlots {
     const unit = motors.every((motor) => motor.linear) ? 'Force (N)' : motors.some((motor) => motor.linear) ? 'Torque (N m), force (N)' : 'Torque (N m)';
     this.errors = plot(errorBox, 'Error (mm)', ['error']);
     this.torques = plot(torqueBox, unit, motors.map((motor) => motor.name));
-    onThemeChange(() => [this.errors, this.torques].forEach((one) => one.redraw(false)));
+    this.recolour();
+    onThemeChange(() => this.recolour());
   }
 
   plot(box, label, names) {
@@ -55,6 +57,13 @@ export class LivePlots {
     );
     new ResizeObserver(() => box.clientWidth && made.setSize({ width: box.clientWidth, height: 180 })).observe(box);
     return made;
+  }
+
+  recolour() {
+    for (const one of [this.errors, this.torques]) {
+      paintLegend(one, one.series.slice(1).map((_, i) => ({ colour: i, dash: i % 4 })));
+      one.redraw(false);
+    }
   }
 
   /** Where the log's pose is. */

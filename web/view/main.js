@@ -87,14 +87,14 @@ class Page {
   }
 
   forget() {
-    this.drawing.forget();
+    this.drawing.trail.forget();
     this.plots.clear();
   }
 
   keep({ traces, t }) {
     if (this.isLog) this.forget(); // it brings all of it, each time
     this.plots.add(traces, t);
-    this.drawing.travel(traces.way);
+    this.drawing.trail.add(traces.way);
     const largest = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
     this.drawing.scaleTorques(traces.tau.map(largest));
   }
