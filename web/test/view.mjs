@@ -146,7 +146,7 @@ async function live(tab, complaints) {
   assert.equal(await ended(view), 0);
   await tab.waitForSelector('#status[data-state=closed]');
   view = await viewing(experiment, new URL(view.url).port);
-  const third = run(`${folder}/third`, '--set', 'path.duration=3 s');
+  const third = run(`${folder}/third`, '--set', 'path.duration=1.5 s');
   await past(tab, 50, last.session);
   await tab.waitForFunction(() => document.getElementById('notes').textContent.includes('another experiment: its path'));
   assert.equal(await third.over, 0);

@@ -14,8 +14,11 @@ export class LivePlots {
     const unit = motors.every((motor) => motor.linear) ? 'Force (N)' : motors.some((motor) => motor.linear) ? 'Torque (N m), force (N)' : 'Torque (N m)';
     this.errors = plot(errorBox, 'Error (mm)', ['error']);
     this.torques = plot(torqueBox, unit, motors.map((motor) => motor.name));
-    this.recolour();
-    onThemeChange(() => this.recolour());
+    this.paintLegends();
+    onThemeChange(() => {
+      this.paintLegends();
+      for (const one of [this.errors, this.torques]) one.redraw(false);
+    });
   }
 
   plot(box, label, names) {
@@ -59,11 +62,9 @@ export class LivePlots {
     return made;
   }
 
-  recolour() {
-    for (const one of [this.errors, this.torques]) {
+  paintLegends() {
+    for (const one of [this.errors, this.torques])
       paintLegend(one, one.series.slice(1).map((_, i) => ({ colour: i, dash: i % 4 })));
-      one.redraw(false);
-    }
   }
 
   /** Where the log's pose is. */
