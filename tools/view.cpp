@@ -26,7 +26,8 @@ bool is_experiment(const std::filesystem::path& path) {
 std::unique_ptr<Source> source_of(Options& options) {
   if (is_experiment(options.what)) {
     if (!options.experiment.empty())
-      throw InputError("command_line", {"--experiment"}, "is for a log; the experiment of a live run is named already");
+      throw InputError("command_line", {"--experiment"},
+                       "is for a log; the experiment of a live run is named already");
     const Experiment experiment = load_experiment(std::filesystem::path(options.what), options.overrides());
     return std::make_unique<BusSource>(options.bus, experiment, config_of(experiment));
   }
@@ -34,7 +35,8 @@ std::unique_ptr<Source> source_of(Options& options) {
   if (!options.experiment.empty())
     options.read.experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
   else if (!options.sets.empty())
-    throw InputError("command_line", {"--set"}, "overrides an experiment's entries; expected --experiment too");
+    throw InputError("command_line", {"--set"},
+                     "overrides an experiment's entries; expected --experiment too");
   return std::make_unique<LogSource>(options.what, options.read);
 }
 
@@ -59,10 +61,13 @@ int run(Options& options) {
 void add_view_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("view", "the mechanism in a browser, live from the bus or from a log");
-  command->add_option("what", options->what, "the experiment that runs (.yaml), or a log or a folder that --out kept")
+  command
+      ->add_option("what", options->what,
+                   "the experiment that runs (.yaml), or a log or a folder that --out kept")
       ->required()
       ->type_name("EXPERIMENT|LOG|RESULT_DIR");
-  command->add_option("--port", options->server.port, "on 127.0.0.1; 0 takes one that is free")->type_name("PORT");
+  command->add_option("--port", options->server.port, "on 127.0.0.1; 0 takes one that is free")
+      ->type_name("PORT");
   command->add_option("--fps", options->server.frames_per_second, "poses a second to a browser at most, 60")
       ->check(CLI::Range(1.0, 240.0))
       ->type_name("N");
@@ -75,10 +80,12 @@ void add_view_command(CLI::App& app, int& status) {
   add_bus_options(*command, options->bus);
   add_common_options(*command, *options);
   command->footer(
-      "The page is served to this machine only, and can command nothing. It may stay open while the plant is started\n"
+      "The page is served to this machine only, and can command nothing. It may stay open while the plant is "
+      "started\n"
       "again. Live, it listens on the bus that the run is on: start it in the same network namespace.\n"
       "Examples:\n"
-      "  mixloop view experiments/paper.yaml                 # then: mixloop run experiments/paper.yaml --speed 1\n"
+      "  mixloop view experiments/paper.yaml                 # then: mixloop run experiments/paper.yaml "
+      "--speed 1\n"
       "  mixloop view results/paper --port 0                 # a run that is over: pause, scrub\n"
       "  mixloop view lcm-log.00 --experiment experiments/paper.yaml");
   command->callback([options, &status] { status = run(*options); });

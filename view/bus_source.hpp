@@ -11,12 +11,12 @@
 
 namespace mixloop {
 
-/// A live run. A thread of its own empties the bus now and then and keeps the newest tick; it sends nothing, and no
-/// browser can hold it up.
+/// A live run. A thread of its own empties the bus now and then and keeps the newest tick; it sends nothing,
+/// and no browser can hold it up.
 class BusSource : public Source {
  public:
-  /// `config`: what the messages of a run of this experiment carry. Throws what Bus throws, and what make_plan throws
-  /// for the experiment's path.
+  /// `config`: what the messages of a run of this experiment carry. Throws what Bus throws, and what
+  /// make_plan throws for the experiment's path.
   BusSource(const BusOptions& bus, const Experiment& experiment, std::int64_t config);
   ~BusSource() override;
 

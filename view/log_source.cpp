@@ -49,11 +49,12 @@ void LogSource::keep(const Tick& tick) {
   rows_.insert(rows_.end(), tick.tau.begin(), tick.tau.end());
   rows_.insert(rows_.end(), tick.desired.position.begin(), tick.desired.position.end());
   const auto& axes = run_.scene->end_effector.axes;
-  traces_.add({.t = tick.t,
-               .error = static_cast<float>(position_error(tick.actual.position, tick.desired.position, axes)),
-               .tau = std::vector<float>(tick.tau.begin(), tick.tau.end()),
-               .place = {static_cast<float>(tick.actual.position[0]), static_cast<float>(tick.actual.position[1]),
-                         static_cast<float>(tick.actual.position[2])}});
+  traces_.add(
+      {.t = tick.t,
+       .error = static_cast<float>(position_error(tick.actual.position, tick.desired.position, axes)),
+       .tau = std::vector<float>(tick.tau.begin(), tick.tau.end()),
+       .place = {static_cast<float>(tick.actual.position[0]), static_cast<float>(tick.actual.position[1]),
+                 static_cast<float>(tick.actual.position[2])}});
 }
 
 std::string LogSource::newest(Cursor& cursor) {
@@ -64,7 +65,8 @@ std::string LogSource::newest(Cursor& cursor) {
 // A tick that the log lost shows the last one before it that there is.
 std::string LogSource::at_tick(std::int64_t k) {
   const std::size_t width = 2 * n_ + 3;
-  auto index = static_cast<std::size_t>(std::clamp<std::int64_t>(k - run_.first_tick, 0, traces_.count() - 1));
+  auto index =
+      static_cast<std::size_t>(std::clamp<std::int64_t>(k - run_.first_tick, 0, traces_.count() - 1));
   while (index > 0 && std::isnan(rows_[index * width])) --index;
   const double* row = rows_.data() + index * width;
   Pose pose;

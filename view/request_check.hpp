@@ -6,8 +6,8 @@
 
 namespace mixloop {
 
-/// Whether a request's Host is this server by one of its own names: 127.0.0.1:PORT or localhost:PORT. Any other name
-/// that leads here is a page elsewhere whose name was bent to 127.0.0.1.
+/// Whether a request's Host is this server by one of its own names: 127.0.0.1:PORT or localhost:PORT. Any
+/// other name that leads here is a page elsewhere whose name was bent to 127.0.0.1.
 bool host_is_ours(std::string_view host, std::uint16_t port);
 
 /// Whether an Origin is a page of this server's; one that is missing is not.

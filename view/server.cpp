@@ -35,7 +35,8 @@ constexpr auto kRequestLimit = std::chrono::seconds(10);
 constexpr std::size_t kMostReceived = 64;  // bytes of a message of the page's: a tick
 
 constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; connect-src 'self' "
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; connect-src "
+    "'self' "
     "ws://127.0.0.1:{0} ws://localhost:{0}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
@@ -45,7 +46,8 @@ std::string_view view_of(beast::string_view text) { return {text.data(), text.si
 class Viewer;
 
 struct ServerState {
-  explicit ServerState(const ServerOptions& options_) : options(options_), acceptor(context), timer(context) {}
+  explicit ServerState(const ServerOptions& options_)
+      : options(options_), acceptor(context), timer(context) {}
 
   void accept();
   void tick(const StopSwitch& stop);
@@ -195,7 +197,8 @@ Response ServerState::answer(const Request& request) const {
     return refuse(http::status::method_not_allowed, "only GET: a viewer takes no orders");
   const std::string_view target = view_of(request.target());
   if (target == "/live") {
-    if (!websocket::is_upgrade(request)) return refuse(http::status::upgrade_required, "a WebSocket is expected");
+    if (!websocket::is_upgrade(request))
+      return refuse(http::status::upgrade_required, "a WebSocket is expected");
     if (!origin_is_ours(view_of(request[http::field::origin]), port))
       return refuse(http::status::forbidden, "the Origin is not this viewer's page");
     if (viewers.size() >= options.most_clients)
@@ -225,7 +228,8 @@ void ServerState::tick(const StopSwitch& stop) {
   });
 }
 
-Server::Server(const ServerOptions& options, std::string page) : shared_(std::make_unique<ServerState>(options)) {
+Server::Server(const ServerOptions& options, std::string page)
+    : shared_(std::make_unique<ServerState>(options)) {
   ServerState& shared = *shared_;
   shared.page = std::move(page);
   const tcp::endpoint place(asio::ip::address_v4::loopback(), options.port);
@@ -235,9 +239,10 @@ Server::Server(const ServerOptions& options, std::string page) : shared_(std::ma
   shared.acceptor.bind(place, failed);
   if (!failed) shared.acceptor.listen(asio::socket_base::max_listen_connections, failed);
   if (failed)
-    throw RunFault("cannot_listen", fmt::format("can't listen on 127.0.0.1:{}: {}; another port: --port 0 takes one "
-                                                "that is free",
-                                                options.port, failed.message()));
+    throw RunFault("cannot_listen",
+                   fmt::format("can't listen on 127.0.0.1:{}: {}; another port: --port 0 takes one "
+                               "that is free",
+                               options.port, failed.message()));
   shared.port = shared.acceptor.local_endpoint().port();
 }
 

@@ -18,9 +18,9 @@ struct ServerOptions {
 
 struct ServerState;  // of server.cpp
 
-/// Serves the page, /scene.json and, over a WebSocket (/live), poses; on 127.0.0.1 only, to requests whose Host is
-/// that, and WebSockets to pages whose Origin is that. A browser that reads slowly is sent fewer poses. What a page
-/// sends is at most the tick of a log that it wants to see: nothing goes on to the bus.
+/// Serves the page, /scene.json and, over a WebSocket (/live), poses; on 127.0.0.1 only, to requests whose
+/// Host is that, and WebSockets to pages whose Origin is that. A browser that reads slowly is sent fewer
+/// poses. What a page sends is at most the tick of a log that it wants to see: nothing goes on to the bus.
 class Server {
  public:
   /// Binds. Throws RunFault("cannot_listen").

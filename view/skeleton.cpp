@@ -42,7 +42,8 @@ std::vector<std::vector<Mat34<double>>> Skeleton::some_poses() {
   std::vector<std::vector<Mat34<double>>> poses;
   for (int pose = 0; pose < kPoses; ++pose) {
     std::vector<double> psi = scene_->home;
-    for (std::size_t i = 0; i < psi.size(); ++i) psi[i] += 0.3 * pose * std::cos(1.0 + 2.0 * static_cast<double>(i));
+    for (std::size_t i = 0; i < psi.size(); ++i)
+      psi[i] += 0.3 * pose * std::cos(1.0 + 2.0 * static_cast<double>(i));
     place(psi, 0);
     poses.emplace_back();
     for (const auto& frame : ws_.frames) poses.back().push_back(frame.T_0);
@@ -50,9 +51,9 @@ std::vector<std::vector<Mat34<double>>> Skeleton::some_poses() {
   return poses;
 }
 
-// The description says which frames make the tree, not where its loops close: a leaf whose origin stays where it is
-// in another body's frame, at all of some poses, is joined to that body there. Bodies that only ever move in parallel
-// stand still in each other's frames too: of several the nearest is it.
+// The description says which frames make the tree, not where its loops close: a leaf whose origin stays where
+// it is in another body's frame, at all of some poses, is joined to that body there. Bodies that only ever
+// move in parallel stand still in each other's frames too: of several the nearest is it.
 std::vector<Skeleton::Closure> Skeleton::find_closures() {
   const std::size_t count = ws_.frames.size();
   std::vector<bool> is_leaf(count, true);
@@ -85,7 +86,8 @@ std::vector<Skeleton::Closure> Skeleton::find_closures() {
   return closures;
 }
 
-// A motor's torque is shown at the joint nearest to the ground that it moves and no motor before it has taken.
+// A motor's torque is shown at the joint nearest to the ground that it moves and no motor before it has
+// taken.
 std::vector<int> Skeleton::joints_of_motors() {
   place(scene_->home, 0);
   std::vector<int> depth(ws_.frames.size(), 0);
@@ -112,7 +114,8 @@ nlohmann::json Skeleton::description() const {
   frames.push_back({{"name", scene_->frames[0]}, {"parent", -1}});
   for (std::size_t i = 0; i < model_.links.size(); ++i) {
     const auto& link = model_.links[i];
-    frames.push_back({{"name", scene_->frames[i + 1]}, {"parent", link.parent}, {"prismatic", link.prismatic}});
+    frames.push_back(
+        {{"name", scene_->frames[i + 1]}, {"parent", link.parent}, {"prismatic", link.prismatic}});
     if (link.coordinate >= 0)
       frames.back()["coordinate"] = scene_->coordinates[static_cast<std::size_t>(link.coordinate)].name;
   }
@@ -127,14 +130,14 @@ nlohmann::json Skeleton::description() const {
     motors.push_back(
         {{"name", scene_->motors[i].name}, {"linear", scene_->motors[i].linear}, {"joint", joints_[i]}});
   for (const auto& closure : closures_) closures.push_back({{"leaf", closure.leaf}, {"on", closure.on}});
-  return {{"name", scene_->name},
-          {"frames", frames},
-          {"bodies", bodies},
-          {"motors", motors},
-          {"closures", closures},
-          {"reach", reach_},
-          {"end_effector",
-           {{"frame", scene_->end_effector.frame}, {"point", list(model_.end_effector_point)}}}};
+  return {
+      {"name", scene_->name},
+      {"frames", frames},
+      {"bodies", bodies},
+      {"motors", motors},
+      {"closures", closures},
+      {"reach", reach_},
+      {"end_effector", {{"frame", scene_->end_effector.frame}, {"point", list(model_.end_effector_point)}}}};
 }
 
 }  // namespace mixloop

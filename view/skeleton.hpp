@@ -27,10 +27,10 @@ class Skeleton {
   Eigen::Vector3d end_effector() const;
   std::span<const double> q() const { return {ws_.q.data(), static_cast<std::size_t>(ws_.q.size())}; }
 
-  /// What never moves, as the page reads it: frames (name, parent, joint's coordinate, prismatic), bodies (name,
-  /// frame, mass, center_of_mass), motors (name, linear, joint: the frame at whose joint its torque is shown),
-  /// closures (see find_closures), end_effector {frame, point}, reach (m: of the farthest
-  /// frame from frame 0's origin, at home).
+  /// What never moves, as the page reads it: frames (name, parent, joint's coordinate, prismatic), bodies
+  /// (name, frame, mass, center_of_mass), motors (name, linear, joint: the frame at whose joint its torque is
+  /// shown), closures (see find_closures), end_effector {frame, point}, reach (m: of the farthest frame from
+  /// frame 0's origin, at home).
   nlohmann::json description() const;
 
   /// Where a branch of the tree ends on another body: frame `leaf`'s origin stands still in frame `on`.

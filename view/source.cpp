@@ -36,15 +36,16 @@ std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& t
   for (std::size_t i = 0; i < skeleton.frames(); ++i) {
     const auto& frame = skeleton.frame(i);
     const Eigen::Quaterniond turn(Eigen::Matrix3d(frame.leftCols<3>()));
-    frames.insert(frames.end(), {frame(0, 3), frame(1, 3), frame(2, 3), turn.x(), turn.y(), turn.z(), turn.w()});
+    frames.insert(frames.end(),
+                  {frame(0, 3), frame(1, 3), frame(2, 3), turn.x(), turn.y(), turn.z(), turn.w()});
   }
   const Eigen::Vector3d E = skeleton.end_effector();
   const double error = position_error(E, pose.desired, skeleton.scene().end_effector.axes);
 
   fmt::memory_buffer out;
   // The session is text: it has more digits than a script's number holds.
-  fmt::format_to(std::back_inserter(out), "{{\"k\":{},\"session\":\"{}\",\"flags\":{},\"note\":{}", pose.k, pose.session,
-                 pose.flags, nlohmann::json(pose.note).dump());
+  fmt::format_to(std::back_inserter(out), "{{\"k\":{},\"session\":\"{}\",\"flags\":{},\"note\":{}", pose.k,
+                 pose.session, pose.flags, nlohmann::json(pose.note).dump());
   fmt::format_to(std::back_inserter(out), ",\"t\":{}", pose.t);
   write(out, "psi", pose.psi);
   write(out, "q", skeleton.q());
@@ -61,7 +62,8 @@ nlohmann::json path_json(const std::vector<Eigen::Vector3d>& path, std::size_t m
   Eigen::AlignedBox3d box;
   for (const auto& place : path)
     if (place.allFinite()) box.extend(place);
-  const double cell = box.isEmpty() ? 1 : std::max(1e-9, 2 * box.diagonal().norm() / static_cast<double>(most));
+  const double cell =
+      box.isEmpty() ? 1 : std::max(1e-9, 2 * box.diagonal().norm() / static_cast<double>(most));
   std::set<std::array<std::int64_t, 3>> seen;
   std::vector<Eigen::Vector3d> fresh;
   for (const auto& place : path) {

@@ -22,8 +22,8 @@ struct Pose {
   std::string note;        ///< what a person must know of it; empty where that is nothing
 };
 
-/// A pose as JSON {"k", "t", "session", "flags", "note", "psi", "q", "tau", "frames": [x, y, z, qx, qy, qz, qw, ...],
-/// "E", "desired", "error"}, with `traces` (JSON) beside it.
+/// A pose as JSON {"k", "t", "session", "flags", "note", "psi", "q", "tau", "frames": [x, y, z, qx, qy, qz,
+/// qw, ...], "E", "desired", "error"}, with `traces` (JSON) beside it.
 std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& traces);
 
 /// Where a browser has come to.
@@ -46,8 +46,8 @@ class Source {
   virtual std::string at_tick(std::int64_t) { return {}; }
 };
 
-/// Points of a path for the page, at most `most`: a place that it comes back to (another lap) is left out, and so is
-/// one that is not finite.
+/// Points of a path for the page, at most `most`: a place that it comes back to (another lap) is left out,
+/// and so is one that is not finite.
 nlohmann::json path_json(const std::vector<Eigen::Vector3d>& path, std::size_t most = 600);
 
 }  // namespace mixloop

@@ -14,13 +14,14 @@ namespace mixloop {
 
 /// What the live plots draw of a tick.
 struct Trace {
-  double t = 0;            ///< plant time, s
-  float error = 0;         ///< m; NaN where the desired place isn't known
-  std::vector<float> tau;  ///< n, commanded; NaN where no command came
+  double t = 0;                                        ///< plant time, s
+  float error = 0;                                     ///< m; NaN where the desired place isn't known
+  std::vector<float> tau;                              ///< n, commanded; NaN where no command came
   std::array<float, 3> place = {std::nanf(""), 0, 0};  ///< of the end effector, m; NaN where it isn't known
 };
 
-/// The latest ticks, for plots of any speed: who asks late gets the least and the greatest of what was missed.
+/// The latest ticks, for plots of any speed: who asks late gets the least and the greatest of what was
+/// missed.
 class Traces {
  public:
   Traces(std::size_t n, std::size_t most) : n_(n), most_(most) {}
@@ -31,9 +32,9 @@ class Traces {
   std::int64_t count() const { return count_; }
   const std::deque<Trace>& all() const { return ticks_; }
 
-  /// Those added since `from`, as JSON {"t": [...], "error": [...], "tau": [[...], ...], "way": [t, x, y, z, ...]}:
-  /// each tick, or where they are more than `most_points`, the least and the greatest of each of as many stretches
-  /// as half of that; of the way, as many places evenly picked, the last one among them.
+  /// Those added since `from`, as JSON {"t": [...], "error": [...], "tau": [[...], ...], "way": [t, x, y, z,
+  /// ...]}: each tick, or where they are more than `most_points`, the least and the greatest of each of as
+  /// many stretches as half of that; of the way, as many places evenly picked, the last one among them.
   std::string since(std::int64_t from, std::size_t most_points) const;
 
  private:

@@ -26,7 +26,8 @@ TEST(View, RefusesWhatItCannotShow) {
   ScratchFolder folder;
   expect_refused({folder.file("nothing")}, 2, "cannot_read", "no such file");
   expect_refused({folder.write("text", "hello, log")}, 2, "not_a_log", "LCM event log");
-  expect_refused({experiment("paper"), "--experiment", experiment("paper")}, 2, "command_line", "is named already");
+  expect_refused({experiment("paper"), "--experiment", experiment("paper")}, 2, "command_line",
+                 "is named already");
   const std::string out = folder.file("kept");
   Command simulate({bin("mixloop"), "simulate", experiment("paper"), "--json", "--out", out});
   ASSERT_EQ(simulate.wait(), 0) << simulate.err();

@@ -16,12 +16,13 @@ namespace {
 using testing::ElementsAre;
 
 Skeleton of(const std::string& name) {
-  auto scene = std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES) / (name + ".yaml")));
+  auto scene =
+      std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES) / (name + ".yaml")));
   return Skeleton(scene, scene->default_parameters());
 }
 
-// By hand: at psi = 0 all of Appendix B's q's are q1 = q2 = q3 = 0, so link 2 lies along x at the height L1 and the
-// pantograph's first link too.
+// By hand: at psi = 0 all of Appendix B's q's are q1 = q2 = q3 = 0, so link 2 lies along x at the height L1
+// and the pantograph's first link too.
 TEST(Skeleton, PlacesThePapersRobot) {
   Skeleton robot = of("mixed_loop_robot");
   robot.place(std::vector<double>{0, 0, 0}, 0);
@@ -34,21 +35,24 @@ TEST(Skeleton, PlacesThePapersRobot) {
   EXPECT_LT((place(3) - robot.end_effector()).norm(), round_off);  // E is frame 3's origin
 }
 
-// Links 4, 5, 6 and link 2's other side (26 cm at 57 degrees from the first) are a parallelogram: link 6 ends on body 2.
+// Links 4, 5, 6 and link 2's other side (26 cm at 57 degrees from the first) are a parallelogram: link 6 ends
+// on body 2.
 TEST(Skeleton, FindsWhereThePantographCloses) {
   Skeleton robot = of("mixed_loop_robot");
   ASSERT_EQ(robot.closures().size(), 1u);
   EXPECT_EQ(robot.closures()[0].leaf, 6u);
   EXPECT_EQ(robot.closures()[0].on, 2u);
   robot.place(std::vector<double>{3, -200, 150}, 0);
-  const Eigen::Vector3d end = robot.frame(6).col(3), shoulder = robot.frame(1).col(3), elbow = robot.frame(2).col(3);
+  const Eigen::Vector3d end = robot.frame(6).col(3), shoulder = robot.frame(1).col(3),
+                        elbow = robot.frame(2).col(3);
   EXPECT_NEAR((end - shoulder).norm(), 0.26, 1e-14);
   const double angle = std::acos((end - shoulder).dot(elbow - shoulder) / (0.26 * 0.3));
   EXPECT_NEAR(angle, 57 * std::numbers::pi / 180, 1e-13);  // round-off of angles of hundreds of degrees
 }
 
 TEST(Skeleton, ClosesEveryLoopOfTheScenes) {
-  const Skeleton bars = of("double_four_bar");  // all lying bars move in parallel; each ends on the next standing one
+  const Skeleton bars =
+      of("double_four_bar");  // all lying bars move in parallel; each ends on the next standing one
   ASSERT_EQ(bars.closures().size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& [leaf, on] = bars.closures()[i];
@@ -86,7 +90,8 @@ TEST(Skeleton, WritesAPoseThatReadsBackToTheSameNumbers) {
   EXPECT_EQ(nlohmann::json::parse(pose_json(robot, pose, ""))["note"], pose.note);
 }
 
-// There and back on a line of 1 m, and 1 m off it at the end: laps are drawn once, in no more points than asked for.
+// There and back on a line of 1 m, and 1 m off it at the end: laps are drawn once, in no more points than
+// asked for.
 TEST(Path, LeavesOutWhereItWasBefore) {
   std::vector<Eigen::Vector3d> path = {Eigen::Vector3d::Constant(std::nan(""))};
   for (int lap = 0; lap < 3; ++lap) {
@@ -103,7 +108,8 @@ TEST(Path, LeavesOutWhereItWasBefore) {
 }
 
 TEST(Path, MayStandStill) {
-  EXPECT_EQ(path_json({Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones()}), nlohmann::json::parse("[[1, 1, 1]]"));
+  EXPECT_EQ(path_json({Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones()}),
+            nlohmann::json::parse("[[1, 1, 1]]"));
   EXPECT_EQ(path_json({}), nlohmann::json::array());
 }
 

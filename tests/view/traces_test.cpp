@@ -24,7 +24,9 @@ json since(const Traces& traces, std::int64_t from, std::size_t most_points = 10
 
 TEST(Traces, GivesEachReaderWhatItHasMissed) {
   const Traces traces = of({1, 2, 3, 4});
-  EXPECT_EQ(since(traces, 1), json::parse(R"({"t": [0.001, 0.002, 0.003], "error": [2, 3, 4], "tau": [[-2, -3, -4]], "way": []})"));
+  EXPECT_EQ(
+      since(traces, 1),
+      json::parse(R"({"t": [0.001, 0.002, 0.003], "error": [2, 3, 4], "tau": [[-2, -3, -4]], "way": []})"));
   EXPECT_EQ(since(traces, 4), json::parse(R"({"t": [], "error": [], "tau": [[]], "way": []})"));
 }
 

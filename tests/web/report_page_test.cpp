@@ -15,13 +15,13 @@ TEST(ReportPage, ShowsInABrowserWhatTheTrajectoryHolds) {
   ASSERT_EQ(simulate.wait(), 0) << simulate.err();
   Command report({bin("mixloop"), "report", out});
   ASSERT_EQ(report.wait(), 0) << report.err();
-  Command look({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/report.mjs", MIXLOOP_CHROMIUM, out + "/report.html",
-                out + "/trajectory.csv"});
+  Command look({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/report.mjs", MIXLOOP_CHROMIUM,
+                out + "/report.html", out + "/trajectory.csv"});
   EXPECT_EQ(look.wait(std::chrono::seconds(280)), 0) << look.out() << look.err();
 }
 
-// More ticks than are drawn one by one. Chromium draws without a graphics card, beside other tests: 5 frames a second
-// are far below what it reaches, and far above a page that draws every tick.
+// More ticks than are drawn one by one. Chromium draws without a graphics card, beside other tests: 5 frames
+// a second are far below what it reaches, and far above a page that draws every tick.
 TEST(ReportPage, PansALongRunSmoothly) {
   ScratchFolder folder;
   const std::string out = folder.file("long");
@@ -30,7 +30,8 @@ TEST(ReportPage, PansALongRunSmoothly) {
   ASSERT_EQ(simulate.wait(), 0) << simulate.err();
   Command report({bin("mixloop"), "report", out});
   ASSERT_EQ(report.wait(), 0) << report.err();
-  Command pan({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/pan.mjs", MIXLOOP_CHROMIUM, out + "/report.html", "5"});
+  Command pan({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/pan.mjs", MIXLOOP_CHROMIUM,
+               out + "/report.html", "5"});
   EXPECT_EQ(pan.wait(std::chrono::seconds(280)), 0) << pan.out() << pan.err();
   RecordProperty("rate", pan.out());
 }
@@ -42,7 +43,8 @@ TEST(ReportPage, ShowsWhatThePlantSaidOfItsTiming) {
   ASSERT_EQ(run.wait(), 0) << run.err();
   Command report({bin("mixloop"), "report", out});
   ASSERT_EQ(report.wait(), 0) << report.err();
-  Command look({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/timing.mjs", MIXLOOP_CHROMIUM, out + "/report.html"});
+  Command look(
+      {MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/timing.mjs", MIXLOOP_CHROMIUM, out + "/report.html"});
   EXPECT_EQ(look.wait(std::chrono::seconds(280)), 0) << look.out() << look.err();
 }
 
