@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dynamics/procedure/constraints.hpp"
 #include "dynamics/procedure/kinematics.hpp"
@@ -20,10 +21,11 @@ Eigen::Vector3d seen_from(const Mat34<double>& frame, const Eigen::Vector3d& pla
 
 Skeleton::Skeleton(std::shared_ptr<const Scene> scene, std::span<const double> parameters)
     : scene_(std::move(scene)), model_(make_model<double>(scene_, parameters)), ws_(model_) {
-  closures_ = find_closures();
-  joints_ = joints_of_motors();
+  const std::vector<Posture> poses = some_poses();
+  closures_ = find_closures(poses);
+  joints_ = joints_of_motors(poses);
+  for (const auto& frame : poses[0].frames) at_home_.push_back(frame.col(3));
   place(scene_->home, 0);
-  for (const auto& frame : ws_.frames) reach_ = std::max(reach_, frame.T_0.col(3).norm());
 }
 
 void Skeleton::place(std::span<const double> psi, double t) {
@@ -36,17 +38,17 @@ Eigen::Vector3d Skeleton::end_effector() const {
                           model_.end_effector_point);
 }
 
-// Frames at home and at a few poses around it, a list a pose.
-std::vector<std::vector<Mat34<double>>> Skeleton::some_poses() {
+// At home, and around it.
+std::vector<Skeleton::Posture> Skeleton::some_poses() {
   constexpr int kPoses = 4;
-  std::vector<std::vector<Mat34<double>>> poses;
+  std::vector<Posture> poses;
   for (int pose = 0; pose < kPoses; ++pose) {
     std::vector<double> psi = scene_->home;
     for (std::size_t i = 0; i < psi.size(); ++i)
       psi[i] += 0.3 * pose * std::cos(1.0 + 2.0 * static_cast<double>(i));
     place(psi, 0);
-    poses.emplace_back();
-    for (const auto& frame : ws_.frames) poses.back().push_back(frame.T_0);
+    poses.push_back({.frames = {}, .C = ws_.C});
+    for (const auto& frame : ws_.frames) poses.back().frames.push_back(frame.T_0);
   }
   return poses;
 }
@@ -54,18 +56,17 @@ std::vector<std::vector<Mat34<double>>> Skeleton::some_poses() {
 // The description says which frames make the tree, not where its loops close: a leaf whose origin stays where
 // it is in another body's frame, at all of some poses, is joined to that body there. Bodies that only ever
 // move in parallel stand still in each other's frames too: of several the nearest is it.
-std::vector<Skeleton::Closure> Skeleton::find_closures() {
+std::vector<Skeleton::Closure> Skeleton::find_closures(const std::vector<Posture>& poses) const {
   const std::size_t count = ws_.frames.size();
   std::vector<bool> is_leaf(count, true);
   for (const auto& link : model_.links) is_leaf[static_cast<std::size_t>(link.parent)] = false;
   is_leaf[static_cast<std::size_t>(scene_->end_effector.frame)] = false;
 
-  const auto poses = some_poses();
-  const auto seen = [](const auto& pose, std::size_t leaf, std::size_t on) {
-    return seen_from(pose[on], pose[leaf].col(3));
+  const auto seen = [](const Posture& pose, std::size_t leaf, std::size_t on) {
+    return seen_from(pose.frames[on], pose.frames[leaf].col(3));
   };
   const auto stands_still = [&](std::size_t leaf, std::size_t on) {
-    return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) {
+    return std::all_of(poses.begin(), poses.end(), [&](const Posture& pose) {
       return (seen(pose, leaf, on) - seen(poses[0], leaf, on)).norm() < kSame;
     });
   };
@@ -86,23 +87,33 @@ std::vector<Skeleton::Closure> Skeleton::find_closures() {
   return closures;
 }
 
-// A motor's torque is shown at the joint nearest to the ground that it moves and no motor before it has
-// taken.
-std::vector<int> Skeleton::joints_of_motors() {
-  place(scene_->home, 0);
+// A motor's torque is shown at a joint that it moves and no motor before it has taken: one that turns
+// (slides) as the motor does, by a constant ratio, where there is such a one; of several the nearest to the
+// ground.
+std::vector<int> Skeleton::joints_of_motors(const std::vector<Posture>& poses) const {
   std::vector<int> depth(ws_.frames.size(), 0);
   for (std::size_t i = 0; i < model_.links.size(); ++i)
     depth[i + 1] = depth[static_cast<std::size_t>(model_.links[i].parent)] + 1;
   std::vector<int> joints;
   for (int motor = 0; motor < n(); ++motor) {
-    int nearest = -1;
+    const auto ratio = [&](const Posture& pose, int coordinate) { return pose.C(coordinate, motor); };
+    const auto is_geared = [&](int coordinate) {
+      return std::all_of(poses.begin(), poses.end(), [&](const Posture& pose) {
+        return std::abs(ratio(pose, coordinate) - ratio(poses[0], coordinate)) < kSame;
+      });
+    };
+    std::pair<bool, int> best;  // not the motor's own kind of joint, depth
+    int joint = -1;
     for (std::size_t i = 0; i < model_.links.size(); ++i) {
-      const int coordinate = model_.links[i].coordinate, frame = static_cast<int>(i + 1);
-      if (coordinate < 0 || std::abs(ws_.C(coordinate, motor)) < kSame) continue;
+      const auto& link = model_.links[i];
+      const int frame = static_cast<int>(i + 1);
+      if (link.coordinate < 0 || std::abs(ratio(poses[0], link.coordinate)) < kSame) continue;
       if (std::find(joints.begin(), joints.end(), frame) != joints.end()) continue;
-      if (nearest < 0 || depth[i + 1] < depth[static_cast<std::size_t>(nearest)]) nearest = frame;
+      const bool is_like = link.prismatic == scene_->motors[static_cast<std::size_t>(motor)].linear;
+      const std::pair here{!is_like || !is_geared(link.coordinate), depth[i + 1]};
+      if (joint < 0 || here < best) best = here, joint = frame;
     }
-    joints.push_back(nearest);
+    joints.push_back(joint);
   }
   return joints;
 }
@@ -111,11 +122,13 @@ nlohmann::json Skeleton::description() const {
   using nlohmann::json;
   const auto list = [](const Eigen::Vector3d& v) { return json{v[0], v[1], v[2]}; };
   json frames = json::array(), bodies = json::array(), motors = json::array(), closures = json::array();
-  frames.push_back({{"name", scene_->frames[0]}, {"parent", -1}});
+  frames.push_back({{"name", scene_->frames[0]}, {"parent", -1}, {"home", list(at_home_[0])}});
   for (std::size_t i = 0; i < model_.links.size(); ++i) {
     const auto& link = model_.links[i];
-    frames.push_back(
-        {{"name", scene_->frames[i + 1]}, {"parent", link.parent}, {"prismatic", link.prismatic}});
+    frames.push_back({{"name", scene_->frames[i + 1]},
+                      {"parent", link.parent},
+                      {"prismatic", link.prismatic},
+                      {"home", list(at_home_[i + 1])}});
     if (link.coordinate >= 0)
       frames.back()["coordinate"] = scene_->coordinates[static_cast<std::size_t>(link.coordinate)].name;
   }
@@ -136,7 +149,6 @@ nlohmann::json Skeleton::description() const {
       {"bodies", bodies},
       {"motors", motors},
       {"closures", closures},
-      {"reach", reach_},
       {"end_effector", {{"frame", scene_->end_effector.frame}, {"point", list(model_.end_effector_point)}}}};
 }
 

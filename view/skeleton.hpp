@@ -27,10 +27,9 @@ class Skeleton {
   Eigen::Vector3d end_effector() const;
   std::span<const double> q() const { return {ws_.q.data(), static_cast<std::size_t>(ws_.q.size())}; }
 
-  /// What never moves, as the page reads it: frames (name, parent, joint's coordinate, prismatic), bodies
-  /// (name, frame, mass, center_of_mass), motors (name, linear, joint: the frame at whose joint its torque is
-  /// shown), closures (see find_closures), end_effector {frame, point}, reach (m: of the farthest frame from
-  /// frame 0's origin, at home).
+  /// What never moves, as the page reads it: frames (name, parent, joint's coordinate, prismatic, its origin
+  /// at home), bodies (name, frame, mass, center_of_mass), motors (name, linear, joint: the frame at whose
+  /// joint its torque is shown), closures (see closures()), end_effector {frame, point}.
   nlohmann::json description() const;
 
   /// Where a branch of the tree ends on another body: frame `leaf`'s origin stands still in frame `on`.
@@ -40,16 +39,20 @@ class Skeleton {
   const std::vector<Closure>& closures() const { return closures_; }
 
  private:
-  std::vector<std::vector<Mat34<double>>> some_poses();
-  std::vector<Closure> find_closures();
-  std::vector<int> joints_of_motors();
+  struct Posture {
+    std::vector<Mat34<double>> frames;  ///< to frame 0, m
+    Mat<double> C;                      ///< m x n
+  };
+  std::vector<Posture> some_poses();
+  std::vector<Closure> find_closures(const std::vector<Posture>& poses) const;
+  std::vector<int> joints_of_motors(const std::vector<Posture>& poses) const;
 
   std::shared_ptr<const Scene> scene_;
   Model<double> model_;
   Workspace<double> ws_;
   std::vector<Closure> closures_;
-  std::vector<int> joints_;  ///< of each motor: a frame, or -1
-  double reach_ = 0;
+  std::vector<int> joints_;               ///< of each motor: a frame, or -1
+  std::vector<Eigen::Vector3d> at_home_;  ///< frames' origins, m
 };
 
 }  // namespace mixloop

@@ -69,9 +69,18 @@ TEST(Skeleton, ShowsEachMotorsTorqueAtAJointThatItMoves) {
   EXPECT_THAT(joints, ElementsAre(1, 2, 4));  // q1, q2, q3: the shoulder's three
 }
 
-TEST(Skeleton, SaysHowFarItReaches) {
-  // Upright bars of 1 m on pivots 0, 1 and 2 m from the origin; the second lying one ends on the third.
-  EXPECT_NEAR(of("double_four_bar").description()["reach"], std::sqrt(5.0), 1e-15);
+// The crank's motor turns the crank, frame 4, one to one; the slider, nearer to the ground, by no constant
+// ratio.
+TEST(Skeleton, PrefersTheJointThatTurnsAsTheMotorDoes) {
+  EXPECT_EQ(of("spatial_slider_crank").description()["motors"][0]["joint"], 4);
+}
+
+TEST(Skeleton, SaysWhereTheFramesAreAtHome) {
+  // Upright bars of 1 m on pivots 0, 1 and 2 m from the origin.
+  const auto frames = of("double_four_bar").description()["frames"];
+  const Eigen::Vector3d top(frames.back()["home"][0], frames.back()["home"][1], frames.back()["home"][2]);
+  EXPECT_LT((top - Eigen::Vector3d(2, 1, 0)).norm(), 1e-15);
+  EXPECT_EQ(frames[0]["home"], nlohmann::json({0, 0, 0}));
 }
 
 TEST(Skeleton, WritesAPoseThatReadsBackToTheSameNumbers) {

@@ -4,6 +4,7 @@ import { paintLegend } from '../shared/legend.js';
 import { cssColour, dashes, palettes, theme } from '../shared/theme.js';
 
 export const kMostPoints = 3000; // a curve, drawn at once: more than a screen has columns
+const kPerPixel = 3; // points at most, the least and the greatest of a bit less than a column
 
 /** The stretch of x that plots share: time, or the distance along the path. */
 export class Extent {
@@ -177,6 +178,11 @@ export class Plot {
     return (i) => along[i];
   }
 
+  /** How many points of a curve are worth drawing. */
+  get most() {
+    return Math.min(kMostPoints, kPerPixel * this.box.clientWidth * window.devicePixelRatio);
+  }
+
   /** Per run a table of the points within the extent, at the level that is fine enough; joined. */
   data() {
     const tables = [];
@@ -191,7 +197,7 @@ export class Plot {
         const { length } = pyramids[0].levels[level];
         from = Math.max(0, bisect(at, length, this.extent.min) - 2);
         to = Math.min(length, bisect(at, length, this.extent.max) + 2);
-        if (to - from <= kMostPoints) break;
+        if (to - from <= this.most) break;
       }
       level = Math.min(level, pyramids[0].depth - 1);
       const at = this.abscissa(lines[0], level);

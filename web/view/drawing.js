@@ -18,8 +18,12 @@ export class Drawing {
     this.mechanism = mechanism;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.space = new THREE.Scene();
-    this.reach = Math.max(mechanism.reach, 1e-3, ...path.map((place) => Math.hypot(...place)));
-    this.eye = new Eye(canvas, this.reach, () => (this.changed = true));
+    const places = [...mechanism.frames.map(({ home }) => home), ...path].map((place) => new THREE.Vector3(...place));
+    this.box = new THREE.Box3().setFromPoints(places);
+    const sphere = this.box.getBoundingSphere(new THREE.Sphere());
+    sphere.radius = Math.max(sphere.radius, 1e-3);
+    this.reach = 1.4 * sphere.radius;
+    this.eye = new Eye(canvas, sphere, () => (this.changed = true));
     this.camera = this.eye.camera;
     this.materials = {};
     this.tags = [];
@@ -32,6 +36,7 @@ export class Drawing {
     onThemeChange(() => this.recolour());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
+    this.look('space');
   }
 
   material(name, options = {}) {
@@ -60,8 +65,10 @@ export class Drawing {
     const sun = new THREE.DirectionalLight(0xffffff, 1.6);
     sun.position.set(2, -3, 4);
     space.add(sun);
-    this.cell = niceStep(reach / 8);
-    const cells = 2 * Math.ceil(reach / this.cell);
+    this.cell = niceStep(reach / 6);
+    const { min, max } = this.box;
+    const far = Math.max(...[min.x, max.x, min.y, max.y].map(Math.abs)) + 0.5 * reach;
+    const cells = 2 * Math.ceil(far / this.cell);
     this.grid = new THREE.GridHelper(cells * this.cell, cells);
     this.grid.rotation.x = Math.PI / 2;
     space.add(this.grid);

@@ -5,20 +5,21 @@ const places = { space: [0.5, 0.85, 0.4], front: [0, -1, 0.001], side: [1, 0, 0.
 
 /** The camera, turned by mouse and by keyboard. */
 export class Eye {
-  constructor(canvas, reach, onChange) {
-    Object.assign(this, { reach, onChange });
-    this.camera = new THREE.PerspectiveCamera(40, 1, 0.01 * reach, 100 * reach);
+  /** @param {THREE.Sphere} all what is to be seen */
+  constructor(canvas, all, onChange) {
+    Object.assign(this, { all, onChange });
+    this.camera = new THREE.PerspectiveCamera(40, 1, 0.01 * all.radius, 100 * all.radius);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', onChange);
     canvas.addEventListener('keydown', (event) => this.key(event));
-    this.look('space');
   }
 
   /** From 'space', 'front', 'side' or 'top'. */
   look(from) {
-    this.controls.target.set(0, 0, 0.4 * this.reach);
-    this.camera.position.set(...places[from]).normalize().multiplyScalar(2.2 * this.reach).add(this.controls.target);
+    const far = (3 * this.all.radius) / Math.min(1, this.camera.aspect);
+    this.controls.target.copy(this.all.center);
+    this.camera.position.set(...places[from]).normalize().multiplyScalar(far).add(this.controls.target);
     this.controls.update();
     this.onChange();
   }

@@ -39,7 +39,7 @@ export class LivePlots {
         width: box.clientWidth || 400,
         height: 180,
         scales: { x: { time: false } },
-        axes: [axis('Time (s)', 30), axis(label, 54)],
+        axes: [axis('Time (s)', 30), axis(label, 64)],
         legend: { live: false },
         cursor: { sync: { key: 'view' }, drag: { x: false, y: false } },
         series: [

@@ -1,4 +1,4 @@
-import { h } from '../shared/dom.js';
+import { h, shown } from '../shared/dom.js';
 
 /** state_t's flags. */
 const kRealTime = 1;
@@ -27,7 +27,7 @@ export function numbers(pose, { mechanism, torque_limit: limits = [] }) {
   const rows = [
     ['Time', `${pose.t.toFixed(3)} s`],
     ['Tick', String(pose.k)],
-    ['Position error', pose.error[0] === null ? '–' : `${(pose.error[0] * 1e3).toFixed(4)} mm`],
+    ['Position error', pose.error[0] === null ? '–' : `${shown(pose.error[0] * 1e3, 5)} mm`],
     ['E actual', place(pose.E)],
     ['E desired', place(pose.desired)],
     ...mechanism.motors.map((motor, i) => [`τ of ${motor.name}`, torque(pose.tau[i], motor, limits[i])]),
