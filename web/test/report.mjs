@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 import { opened } from './browser.mjs';
+import { contrast } from './contrast.mjs';
 
 const [executable, page, csv] = process.argv.slice(2);
 const [header, ...lines] = readFileSync(csv, 'utf8').trim().split('\n');
@@ -91,17 +92,4 @@ function coloursUsed() {
     { what: 'text', paper, least: 4.5, colours: of('--ink', '--quiet', '--accent', '--held', '--missed') },
     { what: 'curve', paper, least: 3, colours: [...strokes] },
   ]);
-}
-
-/** WCAG 2: the contrast ratio of two colours, #rrggbb. */
-function contrast(a, b) {
-  const luminance = (colour) => {
-    const [red, green, blue] = [1, 3, 5].map((at) => {
-      const part = parseInt(colour.slice(at, at + 2), 16) / 255;
-      return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
-    });
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-  };
-  const [dark, light] = [luminance(a), luminance(b)].sort((x, y) => x - y);
-  return (light + 0.05) / (dark + 0.05);
 }

@@ -6,6 +6,7 @@ import { readFileSync } from 'node:fs';
 import http from 'node:http';
 import net from 'node:net';
 import { opened, webgl } from './browser.mjs';
+import { contrast } from './contrast.mjs';
 import { endAll, ended, started, viewing as viewer } from './viewer.mjs';
 
 const [executable, mixloop, experiment, folder] = process.argv.slice(2);
@@ -156,6 +157,20 @@ async function live(tab, complaints) {
   return rates;
 }
 
+/** Light and dark: words and what is drawn stand out. */
+async function standsOut(tab) {
+  const words = ['--ink', '--quiet', '--accent', '--held', '--missed'];
+  const shapes = ['--link', '--joint', '--desired', '--travelled', '--closure', '--forward', '--backward'];
+  for (const colorScheme of ['light', 'dark']) {
+    await tab.emulateMedia({ colorScheme });
+    const of = (names) => tab.evaluate((list) => list.map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim()), names);
+    const [paper] = await of(['--paper']);
+    for (const [names, least] of [[words, 4.5], [shapes, 3]])
+      (await of(names)).forEach((colour, i) =>
+        assert.ok(contrast(colour, paper) >= least, `${colorScheme}: ${names[i]} ${colour} on ${paper} has ${contrast(colour, paper).toFixed(2)}`));
+  }
+}
+
 async function log(tab) {
   const view = await viewing(`${folder}/first`, 0);
   await tab.goto(view.url);
@@ -176,6 +191,8 @@ async function log(tab) {
   assert.equal(await tab.evaluate(() => window.mixloop.plots.errors.data[0].length), 2001);
   for (const one of ['errors', 'torques'])
     for (const label of await tab.evaluate((name) => window.mixloop.plots[name].axes.map((axis) => axis.label), one)) assert.match(label, /\(.+\)$/);
+
+  await standsOut(tab);
 
   // The camera, by keyboard and by button.
   await tab.waitForTimeout(200);
