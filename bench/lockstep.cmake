@@ -10,3 +10,6 @@ if(TARGET benchmark::benchmark)
   add_executable(lockstep_pieces ${PROJECT_SOURCE_DIR}/bench/lockstep_pieces.cpp)
   target_link_libraries(lockstep_pieces PRIVATE mixloop::runtime benchmark::benchmark)
 endif()
+# The same in real time: tools/in-namespace bench/critical_path bin
+add_library(path_probe SHARED ${PROJECT_SOURCE_DIR}/bench/path_probe.cpp)
+target_link_libraries(path_probe PRIVATE mixloop_options ${CMAKE_DL_LIBS})

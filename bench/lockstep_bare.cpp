@@ -2,12 +2,15 @@
 // The floor under lockstep: three processes exchange its messages over plain LCM, with nothing computed,
 // checked, encoded or decoded. Plant: STATE, then wait for COMMAND. Planner: REFERENCE for every STATE.
 // Controller: COMMAND for every STATE.
-//   lockstep_bare [TICKS [N]]
+//   lockstep_bare [TICKS [N [RATE]]]
+// With a RATE in Hz STATE is sent by an absolute clock, and all three take real-time rights as `mixloop run --realtime`
+// does: the floor under real time.
 #include <lcm/lcm.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +19,7 @@
 
 #include "runtime/clock.hpp"
 #include "runtime/histogram.hpp"
+#include "runtime/real_time_rights.hpp"
 #include "runtime/wire.hpp"
 
 namespace {
@@ -49,8 +53,11 @@ void send_answer(const lcm_recv_buf_t*, const char*, void* context) {
   lcm_publish(a.lcm, a.channel, a.bytes.data(), static_cast<unsigned>(a.bytes.size()));
 }
 
+volatile std::sig_atomic_t asked_to_leave = 0;
+
 /// Runs a peer in a child process and returns when it is listening.
-pid_t start_peer(const char* answers_on, const std::vector<std::uint8_t>& bytes, const char* also_hears) {
+pid_t start_peer(const char* answers_on, const std::vector<std::uint8_t>& bytes, const char* also_hears,
+                 bool real_time) {
   int ready[2];
   if (pipe(ready) != 0) std::exit(3);
   const pid_t child = fork();
@@ -60,13 +67,17 @@ pid_t start_peer(const char* answers_on, const std::vector<std::uint8_t>& bytes,
     return child;
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  struct sigaction leave {};  // without SA_RESTART: it ends a read
+  leave.sa_handler = [](int) { asked_to_leave = 1; };
+  sigaction(SIGTERM, &leave, nullptr);
   Answer answer{connect(), answers_on, bytes};
   if (also_hears != nullptr) lcm_subscribe(answer.lcm, also_hears, ignore, nullptr);
   lcm_subscribe(answer.lcm, "BARE_STATE", send_answer, &answer);
+  if (real_time) mixloop::take_real_time_rights({});
   if (write(ready[1], "!", 1) != 1) std::exit(3);
-  while (lcm_handle(answer.lcm) == 0) {
+  while (!asked_to_leave && lcm_handle(answer.lcm) == 0) {
   }
-  std::exit(3);
+  std::exit(asked_to_leave ? 0 : 3);
 }
 
 void count(const lcm_recv_buf_t*, const char*, void* counter) { ++*static_cast<long*>(counter); }
@@ -76,20 +87,25 @@ void count(const lcm_recv_buf_t*, const char*, void* counter) { ++*static_cast<l
 int main(int argc, char** argv) {
   const long ticks = argc > 1 ? std::atol(argv[1]) : 5000;
   const int n = argc > 2 ? std::atoi(argv[2]) : 3;
+  const double rate = argc > 3 ? std::atof(argv[3]) : 0;
   alarm(120);  // a lost datagram leaves everybody waiting
 
   const pid_t peers[] = {
-      start_peer("BARE_REFERENCE", bytes_of_blank<mixloop::reference_t>(n), nullptr),
-      start_peer("BARE_COMMAND", bytes_of_blank<mixloop::command_t>(n), "BARE_REFERENCE"),
+      start_peer("BARE_REFERENCE", bytes_of_blank<mixloop::reference_t>(n), nullptr, rate > 0),
+      start_peer("BARE_COMMAND", bytes_of_blank<mixloop::command_t>(n), "BARE_REFERENCE", rate > 0),
   };
   lcm_t* lcm = connect();
   long commands = 0;
   lcm_subscribe(lcm, "BARE_COMMAND", count, &commands);
   const auto state = bytes_of_blank<mixloop::state_t>(n);
+  if (rate > 0) mixloop::take_real_time_rights({});
 
   mixloop::Histogram round_trip;
   mixloop::Instant start{0}, arrived{0};
+  const mixloop::Instant begin = mixloop::now();
   for (long k = 0; k < kWarmUp + ticks; ++k) {
+    if (rate > 0)
+      mixloop::sleep_until(begin + mixloop::nanoseconds(std::llround(1e9 * static_cast<double>(k) / rate)));
     const mixloop::Instant sent = mixloop::now();
     if (k == kWarmUp) start = sent;
     lcm_publish(lcm, "BARE_STATE", state.data(), static_cast<unsigned>(state.size()));
@@ -98,8 +114,10 @@ int main(int argc, char** argv) {
     if (k >= kWarmUp) round_trip.add(arrived - sent);
   }
   for (const pid_t peer : peers) {
-    kill(peer, SIGKILL);
-    waitpid(peer, nullptr, 0);
+    do {  // again where it came just before a read
+      kill(peer, SIGTERM);
+      usleep(1000);
+    } while (waitpid(peer, nullptr, WNOHANG) == 0);
   }
   const auto seconds = [](mixloop::nanoseconds t) { return std::chrono::duration<double>(t).count(); };
   std::printf(

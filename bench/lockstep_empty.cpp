@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   const pid_t controller = in_child([&] {
     Bus bus;
     ControllerSide side;
-    side.compute = [](const state_t&, const reference_t&, std::span<double>) { return 0; };
+    side.compute = [](const state_t&, const reference_t&, std::int64_t, std::span<double>) { return 0; };
     ControllerPeer(bus, stop, {.n = n}, side).run();
   });
 

@@ -1,92 +1,80 @@
 // SPDX-License-Identifier: MIT
 #include "loop/arrivals.hpp"
 
-#include <fmt/format.h>
-
-#include <fstream>
-#include <sstream>
-
 #include "loop/measured_state.hpp"
 #include "loop/simulate.hpp"
-#include "notation/errors.hpp"
 
 namespace mixloop {
 namespace {
 
-constexpr const char* kHeader = "tick,offset_ns,command";
+/// The controller of a run in real time: what it commanded at a tick, from what it had there.
+class Commands {
+ public:
+  Commands(const Experiment& experiment, const Plan& plan, const std::vector<Arrival>& arrivals)
+      : plan_(plan),
+        rate_hz_(experiment.rate_hz),
+        n_(static_cast<std::size_t>(plan.n())),
+        controller_(make_guarded_controller(experiment)),
+        later_(plan.n()),
+        torques_(static_cast<std::size_t>(plan.ticks() + 1) * n_),
+        next_(arrivals.begin()),
+        end_(arrivals.end()) {}
 
-Arrival arrival_in(const std::string& line, const Place& place) {
-  Arrival arrival;
-  char comma = 0, other = 0, rest = 0;
-  std::istringstream in(line);
-  if (!(in >> arrival.tick >> comma >> arrival.offset >> other >> arrival.command) || comma != ',' ||
-      other != ',' || in >> rest)
-    throw InputError("invalid_arrival", place,
-                     fmt::format("found '{}'; expected three whole numbers: {}", line, kHeader));
-  return arrival;
-}
+  GuardedController& controller() { return controller_; }
+  std::span<double> at(std::int64_t k) { return std::span(torques_).subspan(static_cast<std::size_t>(k) * n_, n_); }
+
+  /// Ticks in their order. A state that was never answered did nothing: limits that remember know none of it.
+  void compute(std::int64_t k, const MeasuredState& state) {
+    while (next_ != end_ && next_->command < k) ++next_;
+    if (next_ == end_ || next_->command != k) return;
+    const std::int64_t ahead = next_->ahead;
+    if (ahead == Arrival::kBlind) {
+      controller_.safe_torque(at(k));
+      return;
+    }
+    const Reference reference =
+        ahead == 0 ? plan_.at(k) : later_.take(plan_.at(k - ahead), static_cast<double>(ahead) / rate_hz_);
+    const double t = static_cast<double>(k) / rate_hz_;
+    controller_.torque(state.psi(), state.psid(), state.stale(), reference, t, at(k));
+  }
+
+ private:
+  const Plan& plan_;
+  double rate_hz_;
+  std::size_t n_;
+  GuardedController controller_;
+  ExtrapolatedReference later_;
+  std::vector<double> torques_;
+  std::vector<Arrival>::const_iterator next_, end_;
+};
 
 }  // namespace
 
-void write_arrivals(const std::filesystem::path& file, const std::vector<Arrival>& arrivals) {
-  std::ofstream out(file);
-  out << kHeader << '\n';
-  for (const Arrival& a : arrivals) out << a.tick << ',' << a.offset << ',' << a.command << '\n';
-  if (!out.flush()) throw RunFault("cannot_write", "cannot write " + file.string());
-}
-
-std::vector<Arrival> read_arrivals(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError("no_such_file", {file.string()}, "cannot be read; expected a run's ages.csv");
-  std::string line;
-  int number = 1;
-  if (!std::getline(in, line) || line != kHeader)
-    throw InputError("invalid_arrival", {file.string(), number},
-                     fmt::format("found '{}'; expected the header {}", line.substr(0, 60), kHeader));
-  std::vector<Arrival> arrivals;
-  while (std::getline(in, line)) {
-    const Place place{file.string(), ++number};
-    const Arrival arrival = arrival_in(line, place);
-    const bool sound = arrival.command >= 0 && arrival.command <= arrival.tick && arrival.offset >= 0;
-    const bool later =
-        arrivals.empty() ? arrival.command == 0
-                         : arrival.command > arrivals.back().command && arrival.tick >= arrivals.back().tick;
-    if (!sound || !later)
-      throw InputError("out_of_range", place,
-                       "a command cannot arrive before its state, before an older one, or without command 0 "
-                       "before it");
-    arrivals.push_back(arrival);
-  }
-  if (arrivals.empty()) throw InputError("missing_entry", {file.string(), number}, "no arrivals");
-  return arrivals;
-}
-
-void simulate_arrivals(const Experiment& experiment, const Plan& plan, const std::vector<Arrival>& arrivals,
+void simulate_arrivals(const Experiment& experiment, const Plan& plan, const Arrivals& arrivals,
                        Recorder& recorder, const std::function<bool(std::int64_t k)>& go_on) {
   DeadlinePlant hardware = make_deadline_plant(experiment, plan);
   Plant& plant = hardware.plant();
   MeasuredState measured(plant);
-  GuardedController controller = make_guarded_controller(experiment);
-  require_start(controller, plant.psi(), plan);
-  const auto n = static_cast<std::size_t>(experiment.scene->n());
-  std::vector<double> commands(static_cast<std::size_t>(plan.ticks() + 1) * n);
-  const auto command = [&](std::int64_t k) {
-    return std::span(commands).subspan(static_cast<std::size_t>(k) * n, n);
-  };
-  auto next = arrivals.begin();
+  Commands commands(experiment, plan, arrivals.commands);
+  require_start(commands.controller(), plant.psi(), plan);
+  auto next = arrivals.commands.begin();
+  auto event = arrivals.interventions.begin();
 
   if (!recorder.state(0, plant.psi(), plant.psid(), plant.work())) return;
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
     if (!go_on(k)) return recorder.interrupted();
-    // Only a state that was answered did anything: where a limit on torque rates remembers, that counts.
     measured.take(plant);
-    controller.torque(measured.psi(), measured.psid(), measured.stale(), plan.at(k), plant.time(), command(k));
-    recorder.note_changes(k, plant.faults());
+    commands.compute(k, measured);
     const bool was_safe = hardware.safe().has_value();
-    for (; next != arrivals.end() && next->tick == k; ++next)
-      hardware.command(next->command, next->offset, command(next->command));
+    for (; event != arrivals.interventions.end() && event->tick <= k; ++event)
+      event->cause != nullptr ? hardware.make_safe(event->cause) : void(hardware.inject(event->fault));
+    recorder.note_changes(k, plant.faults());
+    for (; next != arrivals.commands.end() && next->tick == k; ++next)
+      hardware.command(next->command, next->offset, commands.at(next->command));
+    const bool is_safe = hardware.safe().has_value();
+    if (!was_safe && is_safe) recorder.made_safe(k);
     hardware.finish_tick();
-    if (!was_safe && hardware.safe()) recorder.made_safe(k + 1);
+    if (!is_safe && hardware.safe()) recorder.made_safe(k + 1);
     if (!recorder.command(k, hardware.commanded(), plant.applied())) return;
     if (k < plan.ticks() && !recorder.state(k + 1, plant.psi(), plant.psid(), plant.work())) return;
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 namespace mixloop {
 
@@ -30,5 +31,31 @@ inline Reference reference_in(std::span<const double> row, int n) {
           Reference::Triple(E + 3),
           Reference::Triple(E + 6)};
 }
+
+/// A reference some time after one that is known, to second order: x + x' dt + x'' dt^2 / 2, x' + x'' dt, x''.
+class ExtrapolatedReference {
+ public:
+  explicit ExtrapolatedReference(int n) : n_(n), row_(reference_size(n)) {}
+
+  /// `dt` in s. What is returned is a view of this, until the next call. Allocates nothing.
+  Reference take(const Reference& from, double dt) {
+    const auto go_on = [dt](auto x, auto v, auto a, double* to) {
+      const auto size = static_cast<std::size_t>(x.size());
+      for (std::size_t i = 0; i < size; ++i) {
+        const auto j = static_cast<Eigen::Index>(i);
+        to[i] = x[j] + v[j] * dt + 0.5 * a[j] * dt * dt;
+        to[size + i] = v[j] + a[j] * dt;
+        to[2 * size + i] = a[j];
+      }
+    };
+    go_on(from.psi, from.psid, from.psidd, row_.data());
+    go_on(from.position, from.velocity, from.acceleration, row_.data() + 3 * n_);
+    return reference_in(row_, n_);
+  }
+
+ private:
+  int n_;
+  std::vector<double> row_;
+};
 
 }  // namespace mixloop

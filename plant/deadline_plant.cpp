@@ -18,14 +18,17 @@ DeadlinePlant::DeadlinePlant(Plant plant, const PlantSettings& settings, Deadlin
       last_hundred_(100, true) {
   // Commands are each of another tick: no more of them wait than ticks go into the delay.
   effects_.assign(static_cast<std::size_t>(std::ceil(delay_ * rate_hz)) + 4, Effect{.tau = commanded_});
-  arrivals_.reserve(static_cast<std::size_t>(ticks) + 2);
+  arrivals_.commands.reserve(static_cast<std::size_t>(ticks) + 2);
+  arrivals_.interventions.reserve(kInjected + 1);
 }
 
-void DeadlinePlant::command(std::int64_t tick, std::int64_t offset, std::span<const double> tau) {
+void DeadlinePlant::command(std::int64_t tick, std::int64_t offset, std::span<const double> tau,
+                            std::int64_t ahead) {
   if (tick <= newest_) return;
   newest_ = tick;
-  if (arrivals_.size() < arrivals_.capacity())
-    arrivals_.push_back({.tick = plant_.tick(), .offset = offset, .command = tick});
+  auto& commands = arrivals_.commands;
+  if (commands.size() < commands.capacity())
+    commands.push_back({.tick = plant_.tick(), .offset = offset, .command = tick, .ahead = ahead});
   const double at = tick == 0 ? 0 : std::max(1e-9 * static_cast<double>(offset), 0.0) + delay_;
   const double ticks_later = std::floor(at / tick_length_ * (1 + 1e-12));
   queue(plant_.tick() + static_cast<std::int64_t>(ticks_later), at - ticks_later * tick_length_, tau);
@@ -59,7 +62,7 @@ void DeadlinePlant::count(bool in_time) {
   }
   ++missed_;
   longest_miss_ = std::max(longest_miss_, ++run_of_misses_);
-  if (run_of_misses_ > deadline_.max_missed) make_safe("commands missed");
+  if (run_of_misses_ > deadline_.max_missed) go_safe("commands missed");
 }
 
 double DeadlinePlant::success_last_100() const {
@@ -71,6 +74,18 @@ double DeadlinePlant::success_last_100() const {
 
 void DeadlinePlant::make_safe(const char* cause) {
   if (safe_) return;
+  arrivals_.interventions.push_back({.tick = plant_.tick(), .cause = cause});
+  go_safe(cause);
+}
+
+bool DeadlinePlant::inject(const Fault& fault) {
+  auto& kept = arrivals_.interventions;
+  if (kept.size() >= kInjected || !plant_.inject(fault)) return false;
+  kept.push_back({.tick = plant_.tick(), .fault = fault});
+  return true;
+}
+
+void DeadlinePlant::go_safe(const char* cause) {
   safe_ = Safe{.tick = plant_.tick(), .cause = cause};
   stand_ = map_of(plant_.psi());
   if (deadline_.safe_state == SafeState::brake) plant_.lock();

@@ -5,17 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "plant/arrivals.hpp"
 #include "plant/deadline_settings.hpp"
 #include "plant/plant.hpp"
 
 namespace mixloop {
-
-/// When a command arrived: the only thing in which a run in real time differs from another one.
-struct Arrival {
-  std::int64_t tick = 0;     ///< in which it arrived
-  std::int64_t offset = 0;   ///< ns of plant time after the tick's start
-  std::int64_t command = 0;  ///< the tick that it answers
-};
 
 /// The plant under commands with a deadline: each acts when it arrives (`command_delay` later, where there is
 /// one), one that misses its tick is counted, too many in a row bring the safe state, which only a new plant
@@ -31,14 +25,19 @@ class DeadlinePlant {
   const Plant& plant() const { return plant_; }
 
   /// COMMAND(`tick`) arrives `offset` ns of plant time after the start of the tick in hand. Older ones than
-  /// the newest one are no news. COMMAND(0) acts at once, whatever the delay: the robot starts held.
-  void command(std::int64_t tick, std::int64_t offset, std::span<const double> tau);
+  /// the newest one are no news. COMMAND(0) acts at once, whatever the delay: the robot starts held. `ahead` is
+  /// kept with it, as Arrival has it.
+  void command(std::int64_t tick, std::int64_t offset, std::span<const double> tau, std::int64_t ahead = 0);
 
   /// Goes on to the next tick.
   void finish_tick();
 
   /// Brings the safe state, from the tick in hand on. `cause` must outlive this.
   void make_safe(const char* cause);
+  /// Plant::inject, kept among the arrivals; false also after kInjected of them. What it changes in the tick in
+  /// hand it changes from its start.
+  bool inject(const Fault& fault);
+  static constexpr std::size_t kInjected = 1000;
   struct Safe {
     std::int64_t tick;
     const char* cause;
@@ -51,7 +50,7 @@ class DeadlinePlant {
   std::int64_t missed() const { return missed_; }              ///< ticks whose command came late or never
   std::int64_t longest_miss() const { return longest_miss_; }  ///< the longest run of them
   double success_last_100() const;                             ///< of the last 100 ticks, as far as there are
-  const std::vector<Arrival>& arrivals() const { return arrivals_; }
+  const Arrivals& arrivals() const { return arrivals_; }
 
  private:
   struct Effect {
@@ -61,6 +60,7 @@ class DeadlinePlant {
   };
   void queue(std::int64_t tick, double offset, std::span<const double> tau);
   void count(bool in_time);
+  void go_safe(const char* cause);
   void take_safe_torque();
 
   Plant plant_;
@@ -72,7 +72,7 @@ class DeadlinePlant {
   std::size_t first_ = 0, waiting_ = 0;
   Vector commanded_, stand_;  ///< stand_: psi where the safe state began
   std::optional<Safe> safe_;
-  std::vector<Arrival> arrivals_;
+  Arrivals arrivals_;
 
   std::int64_t missed_ = 0, longest_miss_ = 0, run_of_misses_ = 0, counted_ = 0;
   std::vector<bool> last_hundred_;

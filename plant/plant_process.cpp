@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 
-#include "loop/arrivals.hpp"
+#include "loop/arrivals_file.hpp"
 #include "loop/result.hpp"
 #include "runtime/lockstep_plant.hpp"
 #include "runtime/real_time_plant.hpp"
@@ -25,10 +26,9 @@ void add_quantiles(nlohmann::json& result, const std::string& name, const Histog
 }
 
 nlohmann::json json_of(const Rejects& rejects) {
-  return {{"length", rejects.length},       {"fingerprint", rejects.fingerprint},
-          {"dimension", rejects.dimension}, {"not_finite", rejects.not_finite},
-          {"session", rejects.session},     {"config", rejects.config},
-          {"tick", rejects.tick},           {"stale", rejects.stale}};
+  nlohmann::json counts;
+  for (const Reject cause : kRejects) counts[std::string(name(cause))] = rejects.of(cause);
+  return counts;
 }
 
 bool saturated(const PlantSettings& settings, std::span<const double> commanded) {
@@ -48,13 +48,17 @@ PlantSession::PlantSession(const PlantLine& line, const Experiment& experiment, 
       recorder_(experiment, plan),
       truth_(experiment, recorder_),
       report_(report),
-      faults_(experiment.scene->n()) {}
+      faults_(experiment.scene->n()) {
+  heard_.reserve(Faults::kWaiting);
+}
 
 Ending PlantSession::run(Bus& bus, const StopSwitch& stop, std::int64_t session, std::int64_t next_session) {
   const Plant& plant = hardware_.plant();
   if (!recorder_.state(0, plant.psi(), plant.psid(), plant.work()))
     throw RunFault("diverged", "the start is already farther from the path than limits.position_error");
-  if (line_.allow_faults) bus.subscribe<&PlantSession::on_fault>(bus.channel("FAULT"), this);
+  const auto deafen = [](Bus* b) { b->unsubscribe(b->channel("FAULT")); };
+  const std::unique_ptr<Bus, decltype(deafen)> hears(line_.allow_faults ? &bus : nullptr, deafen);
+  if (hears) bus.subscribe<&PlantSession::on_fault>(bus.channel("FAULT"), this);
   if (!line_.real_time) {
     LockstepPlant lockstep(bus, stop, options(session), side());
     return drive(lockstep, next_session);
@@ -108,8 +112,10 @@ PlantSide PlantSession::side() {
     return plant.measure(psi, psid);
   };
   side.advance = [this](std::int64_t k, std::span<const double> tau) { return advance(k, tau); };
-  side.command = [this](std::int64_t tick, std::int64_t offset, std::span<const double> tau) {
-    hardware_.command(tick, offset, tau);
+  side.command = [this](const command_t& command, std::int64_t offset) {
+    const bool blind = (command.flags & command_t::FLAG_WITHOUT_REFERENCE) != 0;
+    hardware_.command(command.seq, offset, command.tau_commanded,
+                      blind ? Arrival::kBlind : extrapolated_by(command));
   };
   side.finish_tick = [this](std::int64_t k) { return finish_tick(k); };
   side.make_safe = [this](const char* cause) { make_safe(cause); };
@@ -125,7 +131,7 @@ PlantSide PlantSession::side() {
 
 bool PlantSession::advance(std::int64_t k, std::span<const double> tau) {
   Plant& plant = hardware_.plant();
-  note_faults(k);
+  take_faults(k);
   plant.command(tau);
   if (!recorder_.command(k, tau, plant.applied())) return false;
   if (tick_over(k)) return true;
@@ -136,7 +142,7 @@ bool PlantSession::advance(std::int64_t k, std::span<const double> tau) {
 bool PlantSession::finish_tick(std::int64_t k) {
   const Plant& plant = hardware_.plant();
   const bool was_safe = hardware_.safe().has_value();
-  note_faults(k);
+  take_faults(k);
   hardware_.finish_tick();
   if (!was_safe && hardware_.safe()) recorder_.made_safe(k + 1);
   if (!recorder_.command(k, hardware_.commanded(), plant.applied())) return false;
@@ -144,7 +150,10 @@ bool PlantSession::finish_tick(std::int64_t k) {
   return recorder_.state(k + 1, plant.psi(), plant.psid(), plant.work());
 }
 
-void PlantSession::note_faults(std::int64_t k) {
+/// Faults by message act from the tick in hand on, once its sensors are read: wherever in it they arrived.
+void PlantSession::take_faults(std::int64_t k) {
+  for (const Fault& fault : heard_) hardware_.inject(fault);
+  heard_.clear();
   const Faults* faults = hardware_.plant().faults();
   recorder_.note_changes(k, faults);
   fault_ = faults && faults->active();
@@ -152,18 +161,22 @@ void PlantSession::note_faults(std::int64_t k) {
 
 /// A fault of the operator's, for this session. A repeated one is taken once; what can't be is left alone.
 void PlantSession::on_fault(Bytes bytes) {
-  if (faults_.read(bytes)) return;
+  const auto reject = [this](Reject cause) { bus_->rejects.count(cause); };
+  if (bus_ == nullptr) return;
+  if (const auto cause = faults_.read(bytes)) return reject(*cause);
   const fault_t& m = faults_.message;
-  if (bus_ == nullptr || m.session != bus_->session || m.seq <= fault_count_) return;
+  if (m.session != bus_->session) return reject(Reject::session);
+  if (m.seq <= fault_count_) return reject(Reject::stale);
   if (m.target < fault_t::TARGET_MOTOR || m.target > fault_t::TARGET_FRICTION) return;
   if (m.kind < fault_t::KIND_NONE || m.kind > fault_t::KIND_CHANGED) return;
   fault_count_ = m.seq;
-  hardware_.plant().inject({.target = static_cast<Fault::Target>(m.target),
-                            .kind = static_cast<Fault::Kind>(m.kind),
-                            .index = m.index,
-                            .magnitude = m.magnitude,
-                            .at = 1e-6 * static_cast<double>(m.utime),
-                            .duration = m.duration});
+  if (heard_.size() == heard_.capacity()) return;
+  heard_.push_back({.target = static_cast<Fault::Target>(m.target),
+                    .kind = static_cast<Fault::Kind>(m.kind),
+                    .index = m.index,
+                    .magnitude = m.magnitude,
+                    .at = 1e-6 * static_cast<double>(m.utime),
+                    .duration = m.duration});
 }
 
 void PlantSession::make_safe(const char* cause) {
@@ -233,6 +246,7 @@ void PlantSession::finish(const RunFault* fault) {
   }
   status_ = result.at("exit_status").get<int>();
   if (!line_.out.empty()) {
+    report_.keeping();
     keep(line_.out, experiment_, plan_, recorder_, result);
     if (line_.real_time) write_arrivals(std::filesystem::path(line_.out) / "ages.csv", hardware_.arrivals());
   }

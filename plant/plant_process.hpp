@@ -40,7 +40,7 @@ class PlantSession {
   bool finish_tick(std::int64_t k);
   bool tick_over(std::int64_t k);
   void make_safe(const char* cause);
-  void note_faults(std::int64_t k);
+  void take_faults(std::int64_t k);
   void on_fault(Bytes bytes);
   void add_deadlines(nlohmann::json& result) const;
   void fill(std::int64_t k, truth_t& message);
@@ -54,9 +54,10 @@ class PlantSession {
   Recorder recorder_;
   TruthReader truth_;
   ReportLine& report_;
-  const PlantReport* bus_ = nullptr;
+  PlantReport* bus_ = nullptr;
   Inbox<fault_t> faults_;
   std::int64_t fault_count_ = -1;  ///< of the sender's own count, the latest
+  std::vector<Fault> heard_;       ///< faults for the end of the tick in hand
   bool fault_ = false;  ///< something was wrong at the tick last commanded
   bool finished_ = false;
   int status_ = 0;

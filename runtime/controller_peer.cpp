@@ -12,7 +12,8 @@
 namespace mixloop {
 namespace {
 
-constexpr double kReferenceWait = 0.25;  // ticks: what is missing by then is extrapolated
+constexpr double kReferenceWait = 0.25;    // ticks: what is missing by then is extrapolated
+constexpr std::int64_t kFarthest = 32767;  // ticks: what the command's flags can say
 
 }  // namespace
 
@@ -26,8 +27,7 @@ ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptio
       command_(options.n),
       reference_channel_(bus.channel("REFERENCE")),
       command_channel_(bus.channel("COMMAND")),
-      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n)}),
-      extrapolated_(blank<reference_t>(options.n)) {
+      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n)}) {
   if (!side_.compute) throw std::logic_error("the controller has no law to compute");
   bus_.subscribe<&ControllerPeer::on_reference>(reference_channel_, this);
 }
@@ -80,14 +80,15 @@ void ControllerPeer::answer_if_ready() {
   const std::int64_t tick = link_.latest();
   if (tick <= answered_) return;
   const Kept& reference = kept(tick);
-  if (reference.tick == tick) answer(reference.message, 0);
+  if (reference.tick == tick) answer(reference.message);
 }
 
-void ControllerPeer::answer(const reference_t& reference, std::int32_t flags) {
+void ControllerPeer::answer(const reference_t& reference) {
   const state_t& state = link_.state();
-  const std::int64_t tick = state.seq;
+  const std::int64_t tick = state.seq, ahead = tick - reference.seq;
   command_t& message = command_.message;
-  flags |= side_.compute(state, reference, message.tau_commanded);
+  const std::int32_t flags =
+      side_.compute(state, reference, ahead, message.tau_commanded) | extrapolation_flags(ahead);
   if (!is_finite(message))
     throw RunFault("not_finite", "the control law gives no finite torque at tick " + std::to_string(tick));
   set_header(message, link_.answer_header(tick, state.utime));
@@ -99,12 +100,13 @@ void ControllerPeer::answer(const reference_t& reference, std::int32_t flags) {
 
 // When to look again though nothing is received.
 Instant ControllerPeer::next_look() const {
-  if (link_.latest() < 0 || !in_real_time()) return Instant::max();
+  if (link_.latest() < 0 || !in_real_time() || at_the_gate()) return Instant::max();
   if (link_.latest() > answered_) return drained_ ? asked_ + ticks(kReferenceWait) : now();
   return silence_answered_ ? Instant::max() : asked_ + ticks(options_.max_missed);
 }
 
 void ControllerPeer::attend_to_time() {
+  if (at_the_gate()) return answer_if_ready();
   if (!drained_) return;
   const std::int64_t tick = link_.latest();
   if (tick <= answered_) {
@@ -116,38 +118,20 @@ void ControllerPeer::attend_to_time() {
   }
   answer_if_ready();
   if (tick <= answered_ || now() - asked_ < ticks(kReferenceWait)) return;
-  if (const reference_t* reference = extrapolated(tick)) {
+  if (const reference_t* reference = newest_before(tick)) {
     ++link_.report.extrapolated;
-    return answer(*reference, command_t::FLAG_EXTRAPOLATED);
+    return answer(*reference);
   }
-  send_safe(0);
+  send_safe(command_t::FLAG_WITHOUT_REFERENCE);
   answered_ = tick;
 }
 
-// psi + psi' dt + psi'' dt^2 / 2, and the like for psi' and for the end effector.
-const reference_t* ControllerPeer::extrapolated(std::int64_t tick) {
+const reference_t* ControllerPeer::newest_before(std::int64_t tick) const {
   const Kept* newest = nullptr;
   for (const Kept& k : ring_)
     if (k.tick >= 0 && k.tick < tick && (newest == nullptr || k.tick > newest->tick)) newest = &k;
-  if (newest == nullptr || tick - newest->tick > options_.max_missed) return nullptr;
-  const double dt = static_cast<double>(tick - newest->tick) / options_.rate_hz;
-  const reference_t& from = newest->message;
-  const auto go_on = [dt](auto& x, auto& v, auto& a, const auto& x0, const auto& v0, const auto& a0,
-                          std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) {
-      x[i] = x0[i] + v0[i] * dt + 0.5 * a0[i] * dt * dt;
-      v[i] = v0[i] + a0[i] * dt;
-      a[i] = a0[i];
-    }
-  };
-  reference_t& to = extrapolated_;
-  set_header(to, link_.answer_header(tick, link_.state().utime));
-  go_on(to.psi_desired, to.psid_desired, to.psidd_desired, from.psi_desired, from.psid_desired,
-        from.psidd_desired, static_cast<std::size_t>(options_.n));
-  go_on(to.position_desired, to.velocity_desired, to.acceleration_desired, from.position_desired,
-        from.velocity_desired, from.acceleration_desired, 3);
-  to.phase = from.phase;
-  return &to;
+  const std::int64_t farthest = std::min<std::int64_t>(options_.max_missed, kFarthest);
+  return newest != nullptr && tick - newest->tick <= farthest ? &newest->message : nullptr;
 }
 
 void ControllerPeer::send_safe(std::int32_t flags) {

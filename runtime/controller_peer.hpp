@@ -14,9 +14,10 @@ namespace mixloop {
 
 /// The control law as the peer calls it.
 struct ControllerSide {
-  /// The motor torques for a tick, from its state and its own reference, and command_t's flags. Must not
-  /// allocate, lock or throw.
-  std::function<std::int32_t(const state_t& state, const reference_t& reference, std::span<double> tau)>
+  /// The motor torques for a tick, from its state and its own reference, and command_t's flags. `ahead`: 0,
+  /// or the ticks by which the reference is too old and to be extrapolated. Must not allocate, lock or throw.
+  std::function<std::int32_t(const state_t& state, const reference_t& reference, std::int64_t ahead,
+                             std::span<double> tau)>
       compute;
   /// Optional: a safe command where there is no state or reference to go by; zero torque without it.
   std::function<void(std::span<double> tau)> safe;
@@ -32,8 +33,8 @@ struct ControllerSide {
 /// answered by the same bytes, an older one is dropped.
 ///
 /// Where the plant keeps real time, only the latest STATE is answered. A REFERENCE that isn't there after a
-/// quarter of a tick is extrapolated to second order from the last one, for at most `max_missed` ticks; after
-/// that, after as many ticks without a STATE, and on a STOP, a safe command is sent.
+/// quarter of a tick is extrapolated from the last one, for at most `max_missed` ticks; after that, after as
+/// many ticks without a STATE, and on a STOP, a safe command is sent. Tick 0 waits for its reference.
 ///
 /// After start-up a tick costs no allocation, lock or throw of ours.
 class ControllerPeer {
@@ -57,13 +58,15 @@ class ControllerPeer {
   Kept& kept(std::int64_t tick) { return ring_[static_cast<std::size_t>(tick % kAhead)]; }
 
   bool in_real_time() const { return (link_.state().flags & state_t::FLAG_REAL_TIME) != 0; }
+  /// Nothing moves before all are there.
+  bool at_the_gate() const { return link_.latest() == 0 && answered_ < 0; }
   nanoseconds ticks(double number) const;
   void begin_session();
   void answer_if_ready();
-  void answer(const reference_t& reference, std::int32_t flags);
+  void answer(const reference_t& reference);
   Instant next_look() const;
   void attend_to_time();
-  const reference_t* extrapolated(std::int64_t tick);
+  const reference_t* newest_before(std::int64_t tick) const;
   void send_safe(std::int32_t flags);
   void repeat();
   void require_planner() const;
@@ -82,7 +85,6 @@ class ControllerPeer {
   Instant asked_{0};            // when the latest state came
   bool drained_ = true;         // real time: nothing newer waits to be read
   bool silence_answered_ = false;
-  reference_t extrapolated_;
   ConfigAgreement planner_agreement_;
 };
 

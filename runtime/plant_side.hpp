@@ -43,8 +43,8 @@ struct PlantSide {
   /// Lockstep. Takes the tick's command and goes to the start of the next one (at the last tick: records the
   /// command). False: the run is over (divergence), nothing of the next tick may be published.
   std::function<bool(std::int64_t tick, std::span<const double> tau)> advance;
-  /// Real time. COMMAND(`tick`) arrives `offset` ns of plant time after the start of the tick in hand.
-  std::function<void(std::int64_t tick, std::int64_t offset, std::span<const double> tau)> command;
+  /// Real time. A command arrives `offset` ns of plant time after the start of the tick in hand.
+  std::function<void(const command_t& command, std::int64_t offset)> command;
   /// Real time. Goes on to the start of the next tick. False: as for advance.
   std::function<bool(std::int64_t tick)> finish_tick;
   /// Real time. Brings the safe state; `cause` is a literal.

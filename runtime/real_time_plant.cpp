@@ -98,7 +98,7 @@ void RealTimePlant::take_command(std::int64_t tick) {
   // Handled after the tick's end, the plant having overslept: then it came at that end at the latest.
   const nanoseconds begin = port_.pacer().due(tick), last = port_.pacer().due(tick + 1) - nanoseconds(1);
   const auto after = static_cast<double>((std::min(at, last) - begin).count());
-  plant_.command(command.seq, std::llround(after * port_.pacer().speed()), command.tau_commanded);
+  plant_.command(command, std::llround(after * port_.pacer().speed()));
   if (tick > 0 && command.seq == tick) port_.report.round_trip.add(at - port_.sent());
   safe_commands_ = (command.flags & command_t::FLAG_SAFE) != 0 ? safe_commands_ + 1 : 0;
   if (safe_commands_ > options_.max_missed) plant_.make_safe("the controller sends safe commands");

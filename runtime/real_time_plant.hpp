@@ -30,6 +30,7 @@ class RealTimePlant {
   void send_reset(std::int64_t next) { port_.send_reset(next); }
 
   const PlantReport& report() const { return port_.report; }
+  PlantReport& report() { return port_.report; }  ///< to count what else the process hears
 
  private:
   Ending run_ticks();

@@ -87,6 +87,8 @@ std::string_view name(Reject cause) {
 
 void Rejects::count(Reject cause) { ++counter(*this, cause); }
 
+std::uint64_t Rejects::of(Reject cause) const { return counter(*this, cause); }
+
 std::uint64_t Rejects::total() const {
   return length + fingerprint + dimension + not_finite + session + config + tick + stale;
 }

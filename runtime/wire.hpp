@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -30,6 +31,9 @@ enum class Reject : std::uint8_t {
   stale,        ///< a tick that is over: doubled, overtaken or replayed
 };
 
+inline constexpr std::array kRejects = {Reject::length,  Reject::fingerprint, Reject::dimension, Reject::not_finite,
+                                        Reject::session, Reject::config,      Reject::tick,      Reject::stale};
+
 std::string_view name(Reject cause);
 
 /// Dropped messages by cause.
@@ -38,6 +42,7 @@ struct Rejects {
                 stale = 0;
 
   void count(Reject cause);
+  std::uint64_t of(Reject cause) const;
   std::uint64_t total() const;
 };
 
@@ -137,6 +142,16 @@ class Inbox {
   int n_;
   std::size_t length_;
 };
+
+/// The flags of a command whose reference was `ahead` ticks too old, and what they say; 0: its own.
+inline std::int32_t extrapolation_flags(std::int64_t ahead) {
+  if (ahead == 0) return 0;
+  return command_t::FLAG_EXTRAPOLATED | static_cast<std::int32_t>(ahead << command_t::EXTRAPOLATED_SHIFT);
+}
+inline std::int64_t extrapolated_by(const command_t& command) {
+  const bool extrapolated = (command.flags & command_t::FLAG_EXTRAPOLATED) != 0;
+  return extrapolated ? command.flags >> command_t::EXTRAPOLATED_SHIFT : 0;
+}
 
 extern template class Inbox<state_t>;
 extern template class Inbox<reference_t>;

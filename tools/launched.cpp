@@ -27,7 +27,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How long a process may take to leave once the plant has ended or a stop was ordered.
+/// How long a process may take to leave once the plant has ended or a stop was ordered. Keeping what was
+/// recorded takes as long as it takes.
 constexpr auto kGrace = 3s;
 
 /// A run of the processes: their pipes, their ends, and what the plant reports.
@@ -117,9 +118,12 @@ class Run {
     for (std::size_t end = reported_.find('\n'); end != std::string::npos; end = reported_.find('\n')) {
       const auto line = nlohmann::json::parse(reported_.substr(0, end), nullptr, false);
       reported_.erase(0, end + 1);
+      if (line.contains("keeping")) keeping_ = true;
       if (line.contains("tick") && !launch_.quiet) progress_.at(line["tick"].get<std::int64_t>() / 64 * 64);
       if (line.contains("result")) {
         result_ = line["result"];
+        keeping_ = false;
+        if (deadline_) deadline_ = now() + kGrace;
         progress_.clear();
         if (at_end_) at_end_(*result_);
       }
@@ -167,7 +171,8 @@ class Run {
   /// SIGTERM after the grace, SIGKILL after as much again.
   void kill_where_overdue() {
     if (!deadline_ || now() < *deadline_) return;
-    for (const auto& child : children_) child.signal(terminated_ ? SIGKILL : SIGTERM);
+    for (const auto& child : children_)
+      if (child.name() != "plant" || !keeping_) child.signal(terminated_ ? SIGKILL : SIGTERM);
     terminated_ = true;
     stopping_ = true;
     deadline_ = now() + kGrace;
@@ -205,6 +210,7 @@ class Run {
   int report_ = -1;
   bool reported_all_ = false;
   std::string reported_;
+  bool keeping_ = false;  ///< the plant is writing its results
   std::optional<nlohmann::json> result_;
   const Child* first_failure_ = nullptr;
   bool stopped_ = false;  ///< by the user

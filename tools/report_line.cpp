@@ -19,9 +19,13 @@ void ReportLine::tick(std::int64_t k) {
   write_all(line, static_cast<std::size_t>(size));
 }
 
-void ReportLine::result(const nlohmann::json& result) {
+void ReportLine::keeping() { say({{"keeping", true}}); }
+
+void ReportLine::result(const nlohmann::json& result) { say({{"result", result}}); }
+
+void ReportLine::say(const nlohmann::json& what) const {
   if (fd_ < 0) return;
-  const std::string line = nlohmann::json{{"result", result}}.dump() + "\n";
+  const std::string line = what.dump() + "\n";
   write_all(line.data(), line.size());
 }
 

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "loop/arrivals.hpp"
+#include "loop/arrivals_file.hpp"
 #include "loop/keep.hpp"
 #include "loop/result.hpp"
 #include "runtime/clock.hpp"
@@ -16,12 +19,15 @@
 
 namespace mixloop {
 
-nlohmann::json simulated(const Experiment& loaded, const std::string& out, const StopSwitch& stop, bool quiet,
+nlohmann::json simulated(Experiment loaded, const std::string& out, const StopSwitch& stop, bool quiet,
                          const std::string& ages) {
   if (loaded.plant.continuous && !ages.empty())
     throw InputError("out_of_range", {"--ages"},
                      "plant.control is 'continuous', which no run in real time has; expected 'held'");
-  const auto arrivals = ages.empty() ? std::vector<Arrival>() : read_arrivals(ages);
+  const auto arrivals = ages.empty() ? Arrivals() : read_arrivals(ages);
+  const auto is_fault = [](const Intervention& i) { return i.cause == nullptr; };
+  loaded.plant.faults.injected =
+      std::any_of(arrivals.interventions.begin(), arrivals.interventions.end(), is_fault);
   const Plan plan = make_plan(loaded);
   const Experiment experiment = with_integrator_settled(loaded, plan);
   const nlohmann::json warnings = warnings_of(experiment, plan, quiet);

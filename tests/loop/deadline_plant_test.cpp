@@ -54,7 +54,7 @@ TEST(DeadlinePlant, counts_what_is_missed) {
   EXPECT_EQ(bench.hardware.longest_miss(), 7);
   EXPECT_DOUBLE_EQ(bench.hardware.success_last_100(), 0.9);
   EXPECT_FALSE(bench.hardware.safe());
-  EXPECT_EQ(bench.hardware.arrivals().size(), 90U);
+  EXPECT_EQ(bench.hardware.arrivals().commands.size(), 90U);
 }
 
 TEST(DeadlinePlant, keeps_the_torque_of_the_last_command_while_one_is_missing) {

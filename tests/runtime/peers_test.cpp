@@ -20,7 +20,7 @@ constexpr PeerOptions kOptions{.n = kScriptN, .config = kScriptConfig, .last_tic
 // tau = (psi_desired, tick, 0): shows which reference and which state it was made of.
 ControllerSide telling_law() {
   ControllerSide side;
-  side.compute = [](const state_t& state, const reference_t& r, std::span<double> tau) {
+  side.compute = [](const state_t& state, const reference_t& r, std::int64_t, std::span<double> tau) {
     tau[0] = r.psi_desired[0];
     tau[1] = static_cast<double>(state.seq);
     return 0;
@@ -240,7 +240,7 @@ TEST_F(Controller, refuses_a_planner_that_was_started_with_something_else_by_nam
 
 TEST_F(Controller, never_sends_a_torque_that_is_no_number) {
   ControllerSide side;
-  side.compute = [](const state_t&, const reference_t&, std::span<double> tau) {
+  side.compute = [](const state_t&, const reference_t&, std::int64_t, std::span<double> tau) {
     tau[2] = std::nan("");
     return 0;
   };

@@ -11,15 +11,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Ticks of 20 ms, so that a busy machine changes nothing. tau = (psi_desired, tick, 0), safe: (-1, -1, -1).
+/// Ticks of 20 ms, so that a busy machine changes nothing. tau = (psi_desired, tick, ahead), safe: (-1, -1, -1).
 class RealTimeController : public testing::Test {
  protected:
   RealTimeController() {
     ControllerSide side;
-    side.compute = [](const state_t& state, const reference_t& r, std::span<double> tau) {
+    side.compute = [](const state_t& state, const reference_t& r, std::int64_t ahead, std::span<double> tau) {
       tau[0] = r.psi_desired[0];
       tau[1] = static_cast<double>(state.seq);
-      tau[2] = 0;
+      tau[2] = static_cast<double>(ahead);
       return 0;
     };
     side.safe = [](std::span<double> tau) { std::fill(tau.begin(), tau.end(), -1.0); };
@@ -56,24 +56,29 @@ TEST_F(RealTimeController, answers_as_in_lockstep_where_all_is_there) {
   EXPECT_EQ(c.flags, 0);
 }
 
-// From psi = 5, psi' = 2, psi'' = 100: after dt = 0.02 s 5.06, after 5 dt = 0.1 s 5.7.
-TEST_F(RealTimeController, extrapolates_a_missing_reference_to_second_order_for_some_ticks) {
-  auto reference = ScriptedPeer::message<reference_t>(0);
-  reference.psi_desired[0] = 5;
-  reference.psid_desired[0] = 2;
-  reference.psidd_desired[0] = 100;
-  script_.send("REFERENCE", reference);
+TEST_F(RealTimeController, waits_at_tick_0_for_its_reference) {
+  send_state(0);
+  EXPECT_FALSE(script_.next<command_t>("COMMAND", 200ms)) << "10 ticks";
+  script_.send_reference(0, 5);
+  EXPECT_EQ(command(0).tau_commanded[0], 5);
+}
+
+TEST_F(RealTimeController, has_a_missing_reference_extrapolated_for_some_ticks) {
+  script_.send_reference(0, 5);
   send_state(0);
   command(0);
-  send_state(1);
-  const command_t near = command(1);
-  EXPECT_EQ(near.flags, command_t::FLAG_EXTRAPOLATED);
-  EXPECT_NEAR(near.tau_commanded[0], 5.06, 1e-14);
-  send_state(5);
-  EXPECT_NEAR(command(5).tau_commanded[0], 5.7, 1e-14);
+  for (const std::int64_t tick : {1, 5}) {
+    send_state(tick);
+    const command_t c = command(tick);
+    EXPECT_NE(c.flags & command_t::FLAG_EXTRAPOLATED, 0);
+    EXPECT_EQ(extrapolated_by(c), tick);
+    EXPECT_EQ(c.tau_commanded[0], 5);
+    EXPECT_EQ(c.tau_commanded[2], static_cast<double>(tick));
+  }
   send_state(6);  // one tick more than is forgiven
   const command_t far = command(6);
-  EXPECT_EQ(far.flags, command_t::FLAG_SAFE);
+  EXPECT_EQ(far.flags, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_WITHOUT_REFERENCE);
+  EXPECT_EQ(extrapolated_by(far), 0);
   EXPECT_EQ(far.tau_commanded[0], -1);
   script_.send_reference(7, 8);
   send_state(7);

@@ -41,8 +41,8 @@ class RealTime : public testing::Test {
       psi[0] = static_cast<double>(tick);
       return false;
     };
-    side.command = [this](std::int64_t tick, std::int64_t offset, std::span<const double> tau) {
-      taken_.push_back({tick, done_, offset, tau[0]});
+    side.command = [this](const command_t& c, std::int64_t offset) {
+      taken_.push_back({c.seq, done_, offset, c.tau_commanded[0]});
     };
     side.finish_tick = [this](std::int64_t tick) {
       done_ = tick + 1;

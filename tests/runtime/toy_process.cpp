@@ -93,7 +93,7 @@ int run_controller(const PeerOptions& options) {
   stop.turn_on_signals();
   SteadyState steady(options.last_tick);
   ControllerSide side;
-  side.compute = [&](const state_t& state, const reference_t& r, std::span<double> tau) {
+  side.compute = [&](const state_t& state, const reference_t& r, std::int64_t, std::span<double> tau) {
     steady.at(state.seq);
     toy::compute(state.psi_measured, state.psid_measured, r, tau);
     return 0;

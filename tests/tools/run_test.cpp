@@ -2,7 +2,10 @@
 // `mixloop run`: three processes over LCM, on good and on bad days.
 #include <gmock/gmock.h>
 
+#include <sys/stat.h>
+
 #include <csignal>
+#include <fstream>
 #include <optional>
 #include <random>
 
@@ -41,6 +44,22 @@ TEST(Run, GivesTheSimulatedBytesWhenIdle) {
     Command command(run_line());
     expect_the_simulated_bytes(command);
   }
+}
+
+// The peers leave before the plant has written what it recorded: here for want of a reader.
+TEST(Run, WaitsAsLongAsItTakesToKeepTheResults) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.path() / "kept");
+  const std::string fifo = folder.file("kept/trajectory.csv");
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  Command command(run_line({"--out", folder.file("kept")}));
+  std::this_thread::sleep_for(std::chrono::seconds(8));  // past both graces
+  ASSERT_TRUE(command.running()) << command.err();
+  std::ifstream reader(fifo);
+  std::size_t lines = 0;
+  for (std::string line; std::getline(reader, line);) ++lines;
+  EXPECT_EQ(lines, 1002U);
+  expect_the_simulated_bytes(command);
 }
 
 TEST(Run, GivesTheSimulatedBytesByOtherIntegratorsToo) {
