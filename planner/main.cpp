@@ -32,7 +32,8 @@ int run(const PeerLine& line) {
                                           : reference_t::PHASE_PATH;
   };
   PlannerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()), std::move(side));
-  line.take_rights("mixloop-planner", line.session == 0);
+  // A state wakes controller and planner at once, and only the controller's answer is waited for.
+  line.take_rights("mixloop-planner", line.session == 0, 1);
   return ended("mixloop-planner", peer.run(), peer.report(), stop);
 }
 

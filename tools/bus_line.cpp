@@ -53,9 +53,11 @@ void add_peer_options(CLI::App& command, PeerLine& line) {
   add_evaluation_option(command, line.evaluation);
 }
 
-void PeerLine::take_rights(const char* program, bool say) const {
+void PeerLine::take_rights(const char* program, bool say, int below) const {
   if (!real_time) return;
-  for (const auto& lost : take_real_time_rights(wishes))
+  RealTimeWishes mine = wishes;
+  if (mine.priority > below) mine.priority -= below;
+  for (const auto& lost : take_real_time_rights(mine))
     if (say) fmt::print(stderr, "{}: {}\n", program, lost);
 }
 

@@ -27,8 +27,8 @@ struct PeerLine : CommonOptions {
   /// The experiment as this line overrides it.
   Experiment load() const;
   /// In real time: takes what rights there are, and says on stderr what is lost, unless `mixloop run`
-  /// launched this process (its plant says it).
-  void take_rights(const char* program, bool say) const;
+  /// launched this process (its plant says it). `below`: by how much its priority is less than the line's.
+  void take_rights(const char* program, bool say, int below = 0) const;
 };
 void add_peer_options(CLI::App& command, PeerLine& line);
 
