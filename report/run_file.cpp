@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "dynamics/scene/load_scene.hpp"
-#include "loop/arrivals.hpp"
+#include "loop/arrivals_file.hpp"
 #include "loop/inputs.hpp"
 #include "report/mechanism.hpp"
 #include "report/trajectory_reader.hpp"
@@ -119,7 +119,8 @@ RunFile opened_log(const std::filesystem::path& log, const ReadOptions& options,
 /// A run in real time kept when each command arrived, on the plant's own clock: better than a logger's.
 void take_arrivals(const std::filesystem::path& file, double rate_hz, std::vector<double>& ages) {
   constexpr std::int64_t kLongest = 100'000'000;  // ticks: a damaged number must not take all memory
-  for (const Arrival& arrival : read_arrivals(file)) {
+  const Arrivals arrivals = read_arrivals(file);
+  for (const Arrival& arrival : arrivals.commands) {
     if (arrival.command >= kLongest) break;
     const auto k = static_cast<std::size_t>(arrival.command);
     if (k >= ages.size()) ages.resize(k + 1, kUnknown);
