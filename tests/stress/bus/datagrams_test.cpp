@@ -180,7 +180,7 @@ TEST(Datagrams, OfGarbageAreDroppedAndCountedAndChangeNothing) {
   BusRig rig(line, {"--allow-faults"});
   rig.start_all();
   ASSERT_TRUE(rig.until([&] { return rig.command.seq > 200; }, 30s));
-  for (const char* channel : {"STATE", "REFERENCE", "COMMAND", "TRUTH"}) rig.bus.unsubscribe(rig.bus.channel(channel));
+  for (const char* channel : {"STATE", "REFERENCE", "TRUTH"}) rig.bus.unsubscribe(rig.bus.channel(channel));
 
   Garbage garbage(3, originals(rig));
   Sender sender;
@@ -193,9 +193,9 @@ TEST(Datagrams, OfGarbageAreDroppedAndCountedAndChangeNothing) {
     const auto& datagram = garbage.next();
     ASSERT_TRUE(sender.send(datagram.bytes));
     expected.count(datagram);
-    if (i % 1000 == 0) rig.listen(0ns);
-    if (i % 10'000 == 0) {
-      ASSERT_TRUE(rig.until([&] { return behind() < 20'000; }, 30s)) << "who is behind hangs";
+    if (i % 1000 == 0) {  // who answers a later state has read what was sent before it
+      const std::int64_t before_these = rig.answered;
+      ASSERT_TRUE(rig.until([&] { return rig.answered >= before_these + 3; }, 30s)) << "somebody hangs";
     }
     for (const Part part : kParts) {
       auto& at_first = before[static_cast<std::size_t>(part)];

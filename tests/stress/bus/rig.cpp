@@ -8,6 +8,8 @@
 #include <csignal>
 #include <fstream>
 
+#include "runtime/plant_time.hpp"
+
 namespace mixloop::stress {
 namespace {
 
@@ -122,7 +124,10 @@ void BusRig::on_reference(Bytes bytes) {
 void BusRig::on_command(Bytes bytes) {
   if (first_bytes[2].empty()) first_bytes[2].assign(bytes.begin(), bytes.end());
   if (commands_.read(bytes)) return;
-  look(commands_.message.tau_commanded);
+  const command_t& heard = commands_.message;
+  if (heard.session == state.session && heard.config == state.config && heard.seq <= kFarthestTick)
+    answered = std::max(answered, heard.seq);
+  look(heard.tau_commanded);
   std::swap(command, commands_.message);
 }
 

@@ -48,6 +48,7 @@ class BusRig {
   Bus bus;
   state_t state = blank<state_t>(kMotors);        ///< the latest heard
   command_t command = blank<command_t>(kMotors);  ///< the latest heard
+  std::int64_t answered = -1;                     ///< the newest tick whose command was heard, of any session
   std::optional<timing_t> timing;                 ///< the latest heard
   std::array<std::vector<std::uint8_t>, 3> first_bytes;  ///< of STATE, REFERENCE, COMMAND: an early message each
   double worst_torque = 0;   ///< commanded or applied, as a share of its limit; infinite where it is not finite
