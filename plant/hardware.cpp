@@ -18,6 +18,8 @@ Hardware::Hardware(const PlantSettings& settings, const Dynamics& dynamics, doub
     scene_friction.emplace(scene, values, dynamics.evaluation(), facts(settings.integrator).jacobian);
 }
 
+Hardware::~Hardware() = default;
+
 std::span<const double> Hardware::through_faults(std::int64_t tick, std::span<const double> tau) {
   if (tau.data() != asked_.data()) asked_ = map_of(tau);
   was_asked_ = true;

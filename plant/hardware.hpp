@@ -17,6 +17,9 @@ class Hardware {
   }
 
   Hardware(const PlantSettings& settings, const Dynamics& dynamics, double rate_hz);
+  ~Hardware();
+  Hardware(const Hardware&) = delete;
+  Hardware& operator=(const Hardware&) = delete;
 
   std::optional<Actuators> actuators;
   std::optional<Sensors> sensors;
@@ -30,8 +33,6 @@ class Hardware {
 
   double friction() const { return faults ? faults->friction() : 1; }
   bool friction_scaled() const { return scene_friction && faults->friction() != 1; }
-  /// Whether the torque that acts is another than the one asked for, or the dynamics are others.
-  bool drives() const { return actuators || friction_scaled(); }
 
  private:
   Vector asked_, faulted_;

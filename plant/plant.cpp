@@ -35,9 +35,6 @@ Plant::Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::spa
   begin_hardware_tick();
 }
 
-Plant::~Plant() = default;
-Plant::Plant(Plant&&) noexcept = default;
-
 void Plant::begin_tick() {
   ++tick_;
   if (hardware_) begin_hardware_tick();
@@ -88,45 +85,29 @@ void Plant::acceleration(std::span<double> psidd) {
   if (hardware_) scale_friction(psi(), psid(), time(), psidd);
 }
 
-void Plant::saturate(std::span<const double> tau) {
-  if (hardware_) tau = hardware_->through_faults(tick_, tau);
+void Plant::saturate(std::span<const double> tau) { hardware_ ? saturate_by_hardware(tau) : limit(tau); }
+
+void Plant::limit(std::span<const double> tau) {
   for (std::size_t i = 0; i < n_; ++i) {
     const double limit = settings_.torque_limit.empty() ? HUGE_VAL : settings_.torque_limit[i];
     applied_[static_cast<Eigen::Index>(i)] = std::clamp(tau[i], -limit, limit);
   }
-  if (!hardware_ || !hardware_->actuators) return;
-  hardware_->actuators->take(applied());
-  drive(0, psi(), psid());
 }
 
 void Plant::integrate_held(double t, double length) {
   if (locked_) return;
-  if (hardware_ && hardware_->drives()) return integrate_driven(t, length);
-  integrate_piece(t, length, [&](int, int, double after, const Vector& x, Vector& dx) { rate_of(t + after, x, dx); });
-}
-
-/// Pieces end where a torque has a kink.
-void Plant::integrate_driven(double t, double length) {
-  auto& actuators = hardware_->actuators;
-  for (double done = 0; done < length;) {
-    double end = actuators ? actuators->next_kink(done) : length;
-    if (!(end < length * (1 - 1e-9))) end = length;
-    integrate_piece(t + done, end - done, [&](int, int, double after, const Vector& x, Vector& dx) {
-      driven_rate_of(done + after, t + done + after, x, dx);
-    });
-    done = end;
-  }
-  if (actuators) actuators->pass(length);
-}
-
-template <class Rate>
-void Plant::integrate_piece(double t, double length, const Rate& rate) {
+  if (hardware_) return integrate_driven(t, length);
+  const auto rate = [&](int, int, double after, const Vector& x, Vector& dx) { rate_of(t + after, x, dx); };
   const auto linear = [&](double after, const Vector& x, auto& jacobian) { linearise(t + after, x, jacobian); };
   if (!facts(settings_.integrator).jacobian) return integrator_.advance(x_, length, rate, linear);
-  // Such a method leaves the work alone; of a held torque it is tau . (psi+ - psi).
-  const auto n = static_cast<Eigen::Index>(n_);
-  before_ = x_.head(n);
+  before_ = x_.head(static_cast<Eigen::Index>(n_));
   integrator_.advance(x_, length, rate, linear);
+  add_work_since_before();
+}
+
+/// The work of the torque held since psi was before_, which methods with a Jacobian leave alone: tau . (psi+ - psi).
+void Plant::add_work_since_before() {
+  const auto n = static_cast<Eigen::Index>(n_);
   before_ = x_.head(n) - before_;
   x_[2 * n] += applied_.dot(before_);
 }
@@ -143,9 +124,7 @@ void Plant::rate_of(double t, const Vector& x, Vector& dx) {
 void Plant::linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian) {
   const auto n = static_cast<Eigen::Index>(n_);
   dynamics_.linearisation({x.data(), n_}, {x.data() + n_, n_}, applied(), t, span_of(linearisation_));
-  if (hardware_ && hardware_->friction_scaled())
-    hardware_->scene_friction->scale_slopes({x.data(), n_}, {x.data() + n_, n_}, applied(), t, hardware_->friction(),
-                                            span_of(linearisation_));
+  if (hardware_) scale_slopes(x, t);
   jacobian.by_q = Eigen::Map<const Matrix>(linearisation_.data(), n, n);
   jacobian.by_v = Eigen::Map<const Matrix>(linearisation_.data() + n * n, n, n);
   if (timed_) time_derivative(t, x, jacobian.by_t);
@@ -155,12 +134,12 @@ void Plant::linearise(double t, const Vector& x, AccelerationJacobian<double>& j
 void Plant::time_derivative(double t, const Vector& x, Vector& by_t) {
   const double d = 6e-6 * std::max(1.0, std::abs(t));
   const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
-  const auto acceleration_at = [&](double at, std::span<double> psidd) {
-    dynamics_.forward_dynamics(psi, psid, applied(), at, psidd);
-    if (hardware_) scale_friction(psi, psid, at, psidd);
-  };
-  acceleration_at(t + d, span_of(by_t));
-  acceleration_at(t - d, span_of(scratch_));
+  dynamics_.forward_dynamics(psi, psid, applied(), t + d, span_of(by_t));
+  dynamics_.forward_dynamics(psi, psid, applied(), t - d, span_of(scratch_));
+  if (hardware_) {
+    scale_friction(psi, psid, t + d, span_of(by_t));
+    scale_friction(psi, psid, t - d, span_of(scratch_));
+  }
   by_t = (by_t - scratch_) / (2 * d);
 }
 

@@ -69,15 +69,17 @@ class Plant {
  private:
   void saturate(std::span<const double> tau);
   void integrate_held(double t, double h);
-  template <class Rate>
-  void integrate_piece(double t, double h, const Rate& rate);
   void integrate_driven(double t, double h);
+  void add_work_since_before();
+  void saturate_by_hardware(std::span<const double> tau);
+  void limit(std::span<const double> tau);
   void begin_tick();
   void begin_hardware_tick();
   void take_changes();
   void drive(double s, std::span<const double> psi, std::span<const double> psid);
   void driven_rate_of(double s, double t, const Vector& x, Vector& dx);
   void scale_friction(std::span<const double> psi, std::span<const double> psid, double t, std::span<double> psidd);
+  void scale_slopes(const Vector& x, double t);
   void rate_of(double t, const Vector& x, Vector& dx);
   void linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian);
   void time_derivative(double t, const Vector& x, Vector& by_t);

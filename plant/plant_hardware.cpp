@@ -7,6 +7,9 @@
 
 namespace mixloop {
 
+Plant::~Plant() = default;
+Plant::Plant(Plant&&) noexcept = default;
+
 bool Plant::measure(std::span<double> psi_out, std::span<double> psid_out) {
   if (hardware_ && hardware_->sensors)
     return hardware_->sensors->measure(tick_, psi(), psid(), hardware_->faults ? &*hardware_->faults : nullptr, psi_out,
@@ -38,7 +41,34 @@ void Plant::take_changes() {
     dynamics_.set_parameters(hardware.faults->parameters());
     if (hardware.scene_friction) hardware.scene_friction->set_parameters(hardware.faults->parameters());
   }
-  if (hardware.was_asked()) saturate(hardware.asked());
+  if (hardware.was_asked() && !locked_) saturate(hardware.asked());
+}
+
+void Plant::saturate_by_hardware(std::span<const double> tau) {
+  limit(hardware_->through_faults(tick_, tau));
+  if (!hardware_->actuators) return;
+  hardware_->actuators->take(applied());
+  drive(0, psi(), psid());
+}
+
+/// As integrate_held; pieces end where a torque has a kink.
+void Plant::integrate_driven(double t, double length) {
+  auto& actuators = hardware_->actuators;
+  double done = 0;
+  const auto rate = [&](int, int, double after, const Vector& x, Vector& dx) {
+    driven_rate_of(done + after, t + done + after, x, dx);
+  };
+  const auto linear = [&](double after, const Vector& x, auto& jacobian) { linearise(t + after, x, jacobian); };
+  const bool jacobian = facts(settings_.integrator).jacobian;  // then there are no actuators
+  if (jacobian) before_ = x_.head(static_cast<Eigen::Index>(n_));
+  while (done < length) {
+    double end = actuators ? actuators->next_kink(done) : length;
+    if (!(end < length * (1 - 1e-9))) end = length;
+    integrator_.advance(x_, end - done, rate, linear);
+    done = end;
+  }
+  if (jacobian) add_work_since_before();
+  if (actuators) actuators->pass(length);
 }
 
 void Plant::drive(double s, std::span<const double> psi, std::span<const double> psid) {
@@ -56,6 +86,12 @@ void Plant::scale_friction(std::span<const double> psi, std::span<const double> 
                            std::span<double> psidd) {
   if (hardware_->friction_scaled())
     hardware_->scene_friction->scale(psi, psid, applied(), t, hardware_->friction(), psidd);
+}
+
+void Plant::scale_slopes(const Vector& x, double t) {
+  if (hardware_->friction_scaled())
+    hardware_->scene_friction->scale_slopes({x.data(), n_}, {x.data() + n_, n_}, applied(), t, hardware_->friction(),
+                                            span_of(linearisation_));
 }
 
 }  // namespace mixloop
