@@ -14,8 +14,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-bool in_safe_state(const BusRig& rig) { return (rig.state.flags & state_t::FLAG_SAFE_STATE) != 0; }
-
 double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 /// kill -9 of one process and its start, until all run again; false where they don't.
@@ -27,8 +25,8 @@ bool killed_and_restarted(BusRig& rig, Part victim) {
     return rig.runs_anew(session);  // the peers follow another session once theirs is silent
   }
   const Instant limit = now() + 10s;
-  while (!in_safe_state(rig) && now() < limit) rig.listen(2ms);
-  const bool safe = in_safe_state(rig);
+  while (!rig.in_safe_state() && now() < limit) rig.listen(2ms);
+  const bool safe = rig.in_safe_state();
   rig.start(victim);
   return safe && rig.reset();
 }
@@ -50,9 +48,7 @@ TEST(Restarts, OfARandomProcessEndInTheSafeStateAndBeginAnew) {
     const bool again = killed_and_restarted(rig, victim);
     recovery.look(again ? seconds(now() - begin) : HUGE_VAL, where);
     torque.look(rig.worst_torque, where);
-    ASSERT_TRUE(again) << where() << "\n"
-                       << rig.process(Part::planner).err() << rig.process(Part::controller).err()
-                       << rig.process(Part::plant).err();
+    ASSERT_TRUE(again) << where() << "\n" << rig.describe();
   }
 }
 
@@ -68,7 +64,7 @@ TEST(Restarts, LeaveThePlantsMemoryAsItWas) {
   for (std::int64_t cycle = 0; cycle < cycles; ++cycle) {
     const Part victim = random() % 2 == 0 ? Part::planner : Part::controller;
     rig.listen(20ms);
-    ASSERT_TRUE(killed_and_restarted(rig, victim)) << rig.process(Part::plant).err();
+    ASSERT_TRUE(killed_and_restarted(rig, victim)) << rig.describe();
     if (cycle == 2) before = rig.memory(Part::plant);
     growth.look(before == 0 ? 0 : static_cast<double>(rig.memory(Part::plant) - before),
                 [&] { return "cycle " + std::to_string(cycle); });
@@ -86,9 +82,9 @@ TEST(Suspensions, OfEachProcessEndInTheSafeStateAndBeginAnew) {
     rig.listen(300ms);
     rig.process(victim).signal(SIGSTOP);
     rig.listen(pause);
-    EXPECT_TRUE(victim == Part::plant || in_safe_state(rig));
+    EXPECT_TRUE(victim == Part::plant || rig.in_safe_state());
     rig.process(victim).signal(SIGCONT);
-    EXPECT_TRUE(rig.until([&] { return in_safe_state(rig); }, 10s));
+    EXPECT_TRUE(rig.until([&] { return rig.in_safe_state(); }, 10s));
     rig.listen(100ms);
     ASSERT_TRUE(rig.all_alive());
     const Instant begin = now();

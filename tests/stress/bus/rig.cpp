@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/stress/bus/rig.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -89,27 +90,37 @@ bool BusRig::all_alive() {
 
 bool BusRig::reset() {
   const std::int64_t old = state.session;
-  auto control = blank<sim_control_t>(kMotors);
-  set_header(control, {.n = kMotors, .session = old, .config = state.config});
-  control.action = sim_control_t::ACTION_RESET;
-  send(control);
+  send_reset();
   return runs_anew(old);
 }
 
 bool BusRig::runs_anew(std::int64_t old) {
-  return until(
-      [&] {
-        return command.session != old && command.session == state.session && command.seq >= 20 &&
-               command.seq <= state.seq && (command.flags & command_t::FLAG_SAFE) == 0 &&
-               (state.flags & state_t::FLAG_SAFE_STATE) == 0;
-      },
-      kHang);
+  const auto runs = [&] {
+    return command.session == state.session && command.seq >= 20 && command.seq <= state.seq &&
+           (command.flags & command_t::FLAG_SAFE) == 0 && !in_safe_state();
+  };
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    if (!until([&] { return state.session != old && (runs() || in_safe_state()); }, kHang)) return false;
+    if (!in_safe_state()) return true;
+    old = state.session;
+    send_reset();
+  }
+  return false;
 }
 
-void BusRig::send(const sim_control_t& control) {
+void BusRig::send_reset() {
   Outbox<sim_control_t> out(kMotors);
-  out.message = control;
+  set_header(out.message, {.n = kMotors, .session = state.session, .config = state.config});
+  out.message.action = sim_control_t::ACTION_RESET;
   bus.publish(bus.channel("SIM_CONTROL"), out.encode());
+}
+
+std::string BusRig::describe() const {
+  std::string text = fmt::format("STATE {} of {:x}, flags {}; COMMAND {} of {:x}, flags {}\n", state.seq, state.session,
+                                 state.flags, command.seq, command.session, command.flags);
+  for (const Part part : kParts)
+    text += name_of(part) + ": " + processes_[static_cast<std::size_t>(part)]->err() + "\n";
+  return text;
 }
 
 void BusRig::on_state(Bytes bytes) {

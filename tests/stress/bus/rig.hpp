@@ -37,13 +37,15 @@ class BusRig {
   bool until(const std::function<bool()>& condition, nanoseconds limit);
   void listen(nanoseconds time);
 
-  /// Goes over to a new session, and listens until it runs: commands of the law past tick 20.
+  /// Resets the plant, and listens until the new session runs: commands of the law past tick 20. A session that the
+  /// machine held up for so long at once that it is in its safe state again is reset again.
   bool reset();
-  /// Listens until some session other than `old` runs.
+  /// The same for a session other than `old` that begins by itself.
   bool runs_anew(std::int64_t old);
+  bool in_safe_state() const { return (state.flags & state_t::FLAG_SAFE_STATE) != 0; }
+  /// What was heard last, and what the processes said.
+  std::string describe() const;
   bool all_alive();
-
-  void send(const sim_control_t& control);
 
   Bus bus;
   state_t state = blank<state_t>(kMotors);        ///< the latest heard
@@ -63,6 +65,7 @@ class BusRig {
   void on_truth(Bytes bytes);
   void on_timing(Bytes bytes);
   void look(const std::vector<double>& torque);
+  void send_reset();
 
   std::vector<std::string> more_, of_plant_;
   std::array<std::unique_ptr<Command>, kParts.size()> processes_;
