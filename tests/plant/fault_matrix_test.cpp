@@ -108,5 +108,56 @@ INSTANTIATE_TEST_SUITE_P(
             "a kick of Kp psi in a few ticks: 220, 150 and 800 N m"},
         Row{"sensor", "for good", "intermittent, magnitude: 0.1", {diverged, diverged, diverged}, "one kick after another"}));
 
+// What changes in the plant while the controller goes on knowing the old one. The drives have friction, of up to
+// 0.01 N m s times 90 rad/s.
+struct Change {
+  const char *lasts, *change;
+  State state;
+  double final_error;  ///< m: at least so much is left at the end
+  const char* reason;
+
+  friend std::ostream& operator<<(std::ostream& out, const Change& row) {
+    return out << row.lasts << ", " << row.change << " (" << row.reason << ")";
+  }
+};
+
+class ChangeMatrix : public testing::TestWithParam<Change> {};
+
+TEST_P(ChangeMatrix, EndsInItsDeclaredState) {
+  const Change& row = GetParam();
+  const bool heals = std::string(row.lasts) == "50 ms";
+  const Experiment experiment = load_experiment(
+      std::filesystem::path(MIXLOOP_SOURCE) / "experiments/paper.yaml",
+      {{"plant.actuators", "{friction: {viscous: 0.01 N m s, coulomb: 0.05 N m, smooth: 0.1 rad/s}}"},
+       {"faults", fmt::format("[{{at: 0.3 s, {}{}}}]", heals ? "for: 50 ms, " : "", row.change)},
+       {"expect", fmt::format("{{max_position_error: {}}}", kBound)},
+       {"limits.position_error", fmt::format("{}", kLimit)}});
+  const Plan plan = make_plan(experiment);
+  Recorder recorder(experiment, plan);
+  simulate(experiment, plan, recorder, [](std::int64_t) { return true; });
+  const Measures m = recorder.measures();
+  EXPECT_EQ(judge(experiment, m).word, kNames[row.state]) << 1e3 * m.max_position_error << " mm";
+  EXPECT_EQ(m.ticks, 1000);
+  if (heals) {
+    EXPECT_NEAR(m.final_position_error, kHealthyEnd, 0.2e-3);
+  } else {
+    EXPECT_GE(m.final_position_error, row.final_error);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, ChangeMatrix,
+    testing::Values(
+        Change{"50 ms", "parameter: payload, value: 0 kg", held, 0, "dropped and caught again: the hand hardly moves in 50 ms"},
+        Change{"50 ms", "parameter: payload, value: 20 kg", held, 0, "four times the load for too short a time"},
+        Change{"for good", "parameter: payload, value: 0 kg", held, 0, "dropped: Kp no longer carries it"},
+        Change{"for good", "parameter: payload, value: 10 kg", missed, 20e-3, "picked up: twice the load on Kp, twice the error"},
+        Change{"for good", "parameter: payload, value: 20 kg", missed, 40e-3, "four times the load on Kp"},
+        Change{"50 ms", "friction: 0", held, 0, "less than 1 N m, geared down"},
+        Change{"50 ms", "friction: 30", held, 0, "too short a time to build up"},
+        Change{"for good", "friction: 0", held, 0, "less than 1 N m, geared down"},
+        Change{"for good", "friction: 10", held, 0, "damps what Kv damps anyway"},
+        Change{"for good", "friction: 30", held, 12.5e-3, "1.5 N m of Coulomb's hold the motors off their end"}));
+
 }  // namespace
 }  // namespace mixloop
