@@ -100,7 +100,10 @@ TEST(Bus, wakes_when_the_switch_is_turned) {
     std::this_thread::sleep_for(10ms);
     stop.turn();
   });
-  EXPECT_EQ(bus.wait(now() + 10s, stop), Wake::stop);
+  Wake wake;
+  do wake = bus.wait(now() + 10s, stop);
+  while (wake == Wake::message);  // on a busy machine LCM's own test message comes late
+  EXPECT_EQ(wake, Wake::stop);
   turner.join();
   EXPECT_EQ(bus.wait(now() + 10s, stop), Wake::stop) << "it stays turned";
 }
