@@ -12,7 +12,7 @@ import { endAll, ended, started, viewing as viewer } from './viewer.mjs';
 const [executable, mixloop, experiment, folder] = process.argv.slice(2);
 const sets = ['--set', 'path.duration=2 s', '--set', 'expect={}'];
 const viewing = (what, port) => viewer(mixloop, what, '--port', String(port), ...(what === experiment ? sets : []));
-const run = (out, ...more) => started(mixloop, 'run', experiment, ...sets, ...more, '--speed', '1', '--json', '--out', out);
+const run = (out, ...more) => started(mixloop, 'run', experiment, ...sets, ...more, '--speed', '0.5', '--json', '--out', out);
 
 /** SHA-256 of the trajectory that a folder keeps. */
 const sha = (out) => JSON.parse(readFileSync(`${out}/result.json`, 'utf8')).trajectory_sha256;
