@@ -115,11 +115,14 @@ void BusRig::send_reset() {
   bus.publish(bus.channel("SIM_CONTROL"), out.encode());
 }
 
-std::string BusRig::describe() const {
+std::string BusRig::describe() {
   std::string text = fmt::format("STATE {} of {:x}, flags {}; COMMAND {} of {:x}, flags {}\n", state.seq, state.session,
                                  state.flags, command.seq, command.session, command.flags);
-  for (const Part part : kParts)
-    text += name_of(part) + ": " + processes_[static_cast<std::size_t>(part)]->err() + "\n";
+  for (const Part part : kParts) {
+    Command& p = process(part);
+    const std::string fate = p.running() ? "runs" : fmt::format("has ended with status {}", p.wait());
+    text += fmt::format("{} {}: {}\n", name_of(part), fate, p.err());
+  }
   return text;
 }
 

@@ -44,7 +44,7 @@ class BusRig {
   bool runs_anew(std::int64_t old);
   bool in_safe_state() const { return (state.flags & state_t::FLAG_SAFE_STATE) != 0; }
   /// What was heard last, and what the processes said.
-  std::string describe() const;
+  std::string describe();
   bool all_alive();
 
   Bus bus;
