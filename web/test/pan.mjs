@@ -1,11 +1,12 @@
-// How smoothly a report pans: node pan.mjs CHROMIUM REPORT.html [LEAST]. The paper's figures are on the screen, a
-// quarter of the time is shown, and every frame moves it by a hundredth. Prints the frames a second that were drawn, or
-// throws where they are fewer than LEAST.
+// How smoothly a report pans: node pan.mjs CHROMIUM REPORT.html. The paper's figures are on the screen, a quarter of the
+// time is shown, and every frame moves it by a hundredth. Prints the frames a second that were drawn, or throws where a
+// curve has more points than a screen has columns for: that is what makes it smooth, on any machine.
 import assert from 'node:assert/strict';
 import { pathToFileURL } from 'node:url';
 import { opened } from './browser.mjs';
 
-const [executable, page, least = '0'] = process.argv.slice(2);
+const [executable, page] = process.argv.slice(2);
+const most = 3000; // plot.js: kMostPoints
 
 /** In the page: pans for so many ms; frames a second. */
 async function pan(ms) {
@@ -31,8 +32,9 @@ await opened(executable, async (_, tab) => {
   await tab.goto(pathToFileURL(page).href);
   await tab.waitForSelector('html[data-ready]');
   const rate = await tab.evaluate(pan, 3000);
-  const plots = await tab.evaluate(() => window.mixloop.plots.filter((plot) => plot.visible).length);
-  console.log(`${rate.toFixed(1)} frames a second, ${plots} plots on the screen`);
-  assert.ok(plots >= 2, 'plots are on the screen');
-  assert.ok(rate >= Number(least), `${rate} frames a second; expected ${least}`);
+  const points = await tab.evaluate(() => window.mixloop.plots.filter(({ visible }) => visible).map(({ plot }) => plot.data[0].length));
+  console.log(`${rate.toFixed(1)} frames a second, ${points.length} plots on the screen, of up to ${Math.max(...points)} points`);
+  assert.ok(points.length >= 2, 'plots are on the screen');
+  assert.ok(Math.max(...points) <= most, `${points} points are drawn at once`);
+  assert.ok(rate > 0);
 });
