@@ -132,15 +132,13 @@ Counts told(const std::string& err) {
   return counts;
 }
 
-/// What is resent in lockstep is stale for a good reason; all else is ours alone.
-void expect_counted(const Counts& expected, const Counts& found) {
+/// What is resent in lockstep is stale for a good reason; all else is ours alone, but for what found a socket full.
+void expect_counted(const Counts& expected, const Counts& found, std::int64_t lost) {
   for (const auto& [cause, count] : expected) {
     const auto at = found.find(cause);
     const std::int64_t there = at == found.end() ? 0 : at->second;
-    if (cause == "stale")
-      EXPECT_GE(there, count) << cause;
-    else
-      EXPECT_EQ(there, count) << cause;
+    EXPECT_GE(there, count - lost) << cause;
+    EXPECT_TRUE(cause == "stale" || there <= count) << cause << ": " << there << " of " << count;
   }
 }
 
@@ -185,7 +183,9 @@ TEST(Datagrams, OfGarbageAreDroppedAndCountedAndChangeNothing) {
   Garbage garbage(3, originals(rig));
   Sender sender;
   Expected expected;
-  Figure growth("datagrams_memory", "kB that a process has grown by", 256, datagrams);
+  // LCM's ring of received messages begins with 200 kB, doubles with the longest backlog, and stays. A leak of a byte a
+  // datagram would be 8 MB of the 1e7.
+  Figure growth("datagrams_memory", "kB that a process has grown by", 1024, datagrams);
   std::array<long, kParts.size()> before{};
   const std::int64_t lost_before = Sender::lost();
   const auto behind = [&] { return expected.total(Part::plant) - (rig.timing ? total(counted(*rig.timing)) : 0); };
@@ -204,18 +204,18 @@ TEST(Datagrams, OfGarbageAreDroppedAndCountedAndChangeNothing) {
         growth.look(static_cast<double>(rig.memory(part) - at_first), [&] { return name_of(part); });
     }
   }
-  ASSERT_TRUE(rig.until([&] { return behind() <= 0 && rig.timing->seq > 2000 * length(3, 30); }, 300s));
-  EXPECT_EQ(Sender::lost(), lost_before) << "then what follows cannot be exact";
+  const auto lost = [&] { return Sender::lost() - lost_before; };
+  ASSERT_TRUE(rig.until([&] { return behind() <= lost() && rig.timing->seq > 2000 * length(3, 30); }, 300s));
 
   rig.process(Part::plant).signal(SIGINT);
   EXPECT_EQ(rig.process(Part::plant).wait(), 0) << rig.process(Part::plant).err();
   const auto result = rig.process(Part::plant).json();
   EXPECT_EQ(result["trajectory_sha256"], simulated_hash(sets)) << "it went another way";
-  expect_counted(expected.of(Part::plant), counted(*rig.timing));  // the result is of the path's end
+  expect_counted(expected.of(Part::plant), counted(*rig.timing), lost());  // the result is of the path's end
   for (const Part part : {Part::planner, Part::controller}) {
     SCOPED_TRACE(name_of(part));
     EXPECT_EQ(rig.process(part).wait(), 0);
-    expect_counted(expected.of(part), told(rig.process(part).err()));
+    expect_counted(expected.of(part), told(rig.process(part).err()), lost());
   }
 }
 
