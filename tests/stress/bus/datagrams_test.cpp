@@ -185,7 +185,7 @@ TEST(Datagrams, OfGarbageAreDroppedAndCountedAndChangeNothing) {
   Expected expected;
   // LCM's ring of received messages begins with 200 kB, doubles with the longest backlog, and stays. A leak of a byte a
   // datagram would be 8 MB of the 1e7.
-  Figure growth("datagrams_memory", "kB that a process has grown by", 1024, datagrams);
+  Figure growth("datagrams_memory", "kB that a process has grown by", growth_bound(1024), datagrams);
   std::array<long, kParts.size()> before{};
   const std::int64_t lost_before = Sender::lost();
   const auto behind = [&] { return expected.total(Part::plant) - (rig.timing ? total(counted(*rig.timing)) : 0); };

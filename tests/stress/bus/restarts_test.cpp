@@ -58,7 +58,7 @@ TEST(Restarts, LeaveThePlantsMemoryAsItWas) {
   BusRig rig({"--realtime"});
   rig.start_all();
   ASSERT_TRUE(rig.runs_anew(0));
-  Figure growth("restarts_memory", "kB that the plant has grown by", 512, cycles);
+  Figure growth("restarts_memory", "kB that the plant has grown by", growth_bound(512), cycles);
   std::mt19937_64 random(2);
   long before = 0;
   for (std::int64_t cycle = 0; cycle < cycles; ++cycle) {

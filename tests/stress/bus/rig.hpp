@@ -20,6 +20,9 @@ enum class Part : std::uint8_t { planner, controller, plant };
 inline constexpr std::array kParts = {Part::planner, Part::controller, Part::plant};
 std::string name_of(Part part);
 
+/// How much a process may grow: a sanitizer keeps what is freed.
+constexpr double growth_bound(double kilobytes) { return MIXLOOP_SANITIZED ? 1e9 : kilobytes; }
+
 class BusRig {
  public:
   /// The paper's robot, its line there and back for a minute. `more` are options of all three, `of_plant` of the plant
