@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Preloaded (LD_PRELOAD) into processes that talk LCM, it notes when each datagram is sent and received, when LCM's pipe
-// wakes the main thread, and when the plant wakes: what bench/critical_path makes its table of. At exit the notes go to
-// the file MIXLOOP_PATH_PROBE with the process id appended: CSV of ns (CLOCK_MONOTONIC), event, channel, LCM's number.
+// Preloaded (LD_PRELOAD) into processes that talk LCM, it notes when each datagram is sent and received, when
+// LCM's pipe wakes the main thread, and when the plant wakes: what bench/critical_path makes its table of. At
+// exit the notes go to the file MIXLOOP_PATH_PROBE with the process id appended: CSV of ns (CLOCK_MONOTONIC),
+// event, channel, LCM's number.
 #include <dlfcn.h>
 #include <sys/socket.h>
 #include <time.h>
@@ -44,7 +45,8 @@ void note(std::int64_t at, Event event, const unsigned char* begin, std::size_t 
   n.at = at;
   n.event = event;
   if (size < 9) return;
-  n.number = std::uint32_t{begin[4]} << 24 | std::uint32_t{begin[5]} << 16 | std::uint32_t{begin[6]} << 8 | begin[7];
+  n.number =
+      std::uint32_t{begin[4]} << 24 | std::uint32_t{begin[5]} << 16 | std::uint32_t{begin[6]} << 8 | begin[7];
   std::memcpy(n.channel, begin + 8, std::min(size - 8, sizeof n.channel - 1));
 }
 

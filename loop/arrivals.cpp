@@ -21,7 +21,9 @@ class Commands {
         end_(arrivals.end()) {}
 
   GuardedController& controller() { return controller_; }
-  std::span<double> at(std::int64_t k) { return std::span(torques_).subspan(static_cast<std::size_t>(k) * n_, n_); }
+  std::span<double> at(std::int64_t k) {
+    return std::span(torques_).subspan(static_cast<std::size_t>(k) * n_, n_);
+  }
 
   /// Ticks in their order. A state that was never answered did nothing: limits that remember know none of it.
   void compute(std::int64_t k, const MeasuredState& state) {

@@ -86,9 +86,12 @@ Arrival arrival_in(const Line& line) {
                   .offset = whole_number(line.fields[1], line),
                   .command = whole_number(line.fields[2], line)};
   const std::string_view how = line.fields[3];
-  if (how == "safe") arrival.ahead = Arrival::kBlind;
-  else if (how.starts_with(kExtrapolated)) arrival.ahead = whole_number(how.substr(kExtrapolated.size()), line);
-  else if (how != "law") refuse(line, "'law', 'extrapolated N' or 'safe' at its end");
+  if (how == "safe")
+    arrival.ahead = Arrival::kBlind;
+  else if (how.starts_with(kExtrapolated))
+    arrival.ahead = whole_number(how.substr(kExtrapolated.size()), line);
+  else if (how != "law")
+    refuse(line, "'law', 'extrapolated N' or 'safe' at its end");
   return arrival;
 }
 
@@ -117,9 +120,12 @@ Fault fault_in(std::string_view text, const Line& line) {
 Intervention intervention_in(const Line& line) {
   Intervention intervention{.tick = whole_number(line.fields[0], line)};
   const std::string_view text = line.fields[3];
-  if (text.starts_with(kSafeState)) intervention.cause = interned(text.substr(kSafeState.size()));
-  else if (text.starts_with(kFault)) intervention.fault = fault_in(text.substr(kFault.size()), line);
-  else refuse(line, "'fault: ...' or 'safe state: ...' where there is no command");
+  if (text.starts_with(kSafeState))
+    intervention.cause = interned(text.substr(kSafeState.size()));
+  else if (text.starts_with(kFault))
+    intervention.fault = fault_in(text.substr(kFault.size()), line);
+  else
+    refuse(line, "'fault: ...' or 'safe state: ...' where there is no command");
   return intervention;
 }
 

@@ -64,7 +64,8 @@ TEST(Arrivals, that_stop_bring_the_safe_state) {
   EXPECT_FALSE(measures.diverged_at);
 }
 
-// Up to 10 ms on, psi'' of a cycloid of 1 s is off by up to 2 pi 0.01 of its largest: 6 %, for 10 ms of the second.
+// Up to 10 ms on, psi'' of a cycloid of 1 s is off by up to 2 pi 0.01 of its largest: 6 %, for 10 ms of the
+// second.
 TEST(Arrivals, know_of_extrapolated_references) {
   auto arrivals = all_after(50'000);
   const Measures plain = measured(paper(), &arrivals);
@@ -77,7 +78,8 @@ TEST(Arrivals, know_of_extrapolated_references) {
 TEST(Arrivals, know_of_safe_commands_and_of_the_safe_state_that_they_brought) {
   auto arrivals = all_after(50'000);
   for (std::size_t k = 400; k <= 420; ++k) arrivals.commands[k].ahead = Arrival::kBlind;
-  EXPECT_FALSE(measured(paper({{"limits.position_error", "1 m"}}), &arrivals).safe_at) << "they alone bring none";
+  EXPECT_FALSE(measured(paper({{"limits.position_error", "1 m"}}), &arrivals).safe_at)
+      << "they alone bring none";
   arrivals.interventions = {{.tick = 420, .cause = "the controller sends safe commands"}};
   const Measures measures = measured(paper({{"limits.position_error", "1 m"}}), &arrivals);
   ASSERT_TRUE(measures.safe_at);
@@ -147,11 +149,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"Words", "tick,offset_ns,command,how\na,b,c,law\n", "invalid_arrival", "a,b,c"},
         BadInput{"Short", "tick,offset_ns,command,how\n0,1,0\n", "invalid_arrival", "four fields"},
         BadInput{"How", "tick,offset_ns,command,how\n0,1,0,luck\n", "invalid_arrival", "extrapolated N"},
-        BadInput{"FromTheFuture", "tick,offset_ns,command,how\n0,1,0,law\n1,1,2,law\n", "out_of_range", "before"},
-        BadInput{"BeforeThePath", "tick,offset_ns,command,how\n0,1,0,law\n1,1,1,extrapolated 2\n", "out_of_range", "before"},
+        BadInput{"FromTheFuture", "tick,offset_ns,command,how\n0,1,0,law\n1,1,2,law\n", "out_of_range",
+                 "before"},
+        BadInput{"BeforeThePath", "tick,offset_ns,command,how\n0,1,0,law\n1,1,1,extrapolated 2\n",
+                 "out_of_range", "before"},
         BadInput{"Negative", "tick,offset_ns,command,how\n0,-1,0,law\n", "out_of_range", "before"},
         BadInput{"Event", "tick,offset_ns,command,how\n0,1,0,law\n3,,,law\n", "invalid_arrival", "fault"},
-        BadInput{"Fault", "tick,offset_ns,command,how\n0,1,0,law\n3,,,fault: wing off 1 0 0 0\n", "invalid_arrival", "TARGET"},
+        BadInput{"Fault", "tick,offset_ns,command,how\n0,1,0,law\n3,,,fault: wing off 1 0 0 0\n",
+                 "invalid_arrival", "TARGET"},
         BadInput{"NotFromTheStart", "tick,offset_ns,command,how\n5,1,5,law\n", "out_of_range", "command 0"}),
     bad_input_name);
 

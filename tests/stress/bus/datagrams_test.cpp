@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Garbage on every channel while the paper's robot goes its way: the same bytes as without, memory as it was, and every
-// datagram counted by its cause.
+// Garbage on every channel while the paper's robot goes its way: the same bytes as without, memory as it was,
+// and every datagram counted by its cause.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -38,8 +38,8 @@ class Sender {
   bool send(const std::vector<std::uint8_t>& bytes) {
     unread_ += bytes.size() + 1000;
     if (unread_ > 50'000) wait_for_receivers();
-    return sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_) ==
-           static_cast<ssize_t>(bytes.size());
+    return sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to_),
+                  sizeof to_) == static_cast<ssize_t>(bytes.size());
   }
 
   /// Datagrams that found a full socket, in this network namespace.
@@ -91,10 +91,10 @@ std::int64_t total(const Counts& counts) {
 
 /// What the plant says that it has dropped.
 Counts counted(const timing_t& t) {
-  return {{"length", t.rejected_length},   {"fingerprint", t.rejected_fingerprint},
+  return {{"length", t.rejected_length},       {"fingerprint", t.rejected_fingerprint},
           {"dimension", t.rejected_dimension}, {"not_finite", t.rejected_not_finite},
-          {"session", t.rejected_session}, {"config", t.rejected_config},
-          {"tick", t.rejected_tick},       {"stale", t.rejected_stale}};
+          {"session", t.rejected_session},     {"config", t.rejected_config},
+          {"tick", t.rejected_tick},           {"stale", t.rejected_stale}};
 }
 
 /// What each process must have dropped.
@@ -102,7 +102,8 @@ class Expected {
  public:
   void count(const Garbage::Datagram& d) {
     for (const Part part : kParts)
-      if (hears(part, d.channel)) ++counts_[static_cast<std::size_t>(part)][std::string(mixloop::name(d.cause))];
+      if (hears(part, d.channel))
+        ++counts_[static_cast<std::size_t>(part)][std::string(mixloop::name(d.cause))];
   }
   const Counts& of(Part part) const { return counts_[static_cast<std::size_t>(part)]; }
   std::int64_t total(Part part) const { return stress::total(of(part)); }
@@ -132,7 +133,8 @@ Counts told(const std::string& err) {
   return counts;
 }
 
-/// What is resent in lockstep is stale for a good reason; all else is ours alone, but for what found a socket full.
+/// What is resent in lockstep is stale for a good reason; all else is ours alone, but for what found a socket
+/// full.
 void expect_counted(const Counts& expected, const Counts& found, std::int64_t lost) {
   for (const auto& [cause, count] : expected) {
     const auto at = found.find(cause);
@@ -143,9 +145,14 @@ void expect_counted(const Counts& expected, const Counts& found, std::int64_t lo
 }
 
 std::string simulated_hash(const std::vector<std::string>& sets) {
-  std::vector<std::string> words = {MIXLOOP_BIN "/mixloop", "simulate", MIXLOOP_EXPERIMENTS "/soak.yaml", "--json",
-                                    "--set", "plant.torque_limit=[3, 8, 4]",
-                                    "--set", "controller.safety.torque_limit=[3, 8, 4]"};
+  std::vector<std::string> words = {MIXLOOP_BIN "/mixloop",
+                                    "simulate",
+                                    MIXLOOP_EXPERIMENTS "/soak.yaml",
+                                    "--json",
+                                    "--set",
+                                    "plant.torque_limit=[3, 8, 4]",
+                                    "--set",
+                                    "controller.safety.torque_limit=[3, 8, 4]"};
   words.insert(words.end(), sets.begin(), sets.end());
   Command command(words);
   EXPECT_EQ(command.wait(), 0) << command.err();
@@ -183,12 +190,14 @@ TEST(Datagrams, OfGarbageAreDroppedAndCountedAndChangeNothing) {
   Garbage garbage(3, originals(rig));
   Sender sender;
   Expected expected;
-  // LCM's ring of received messages begins with 200 kB, doubles with the longest backlog, and stays. A leak of a byte a
-  // datagram would be 8 MB of the 1e7.
+  // LCM's ring of received messages begins with 200 kB, doubles with the longest backlog, and stays. A leak
+  // of a byte a datagram would be 8 MB of the 1e7.
   Figure growth("datagrams_memory", "kB that a process has grown by", growth_bound(1024), datagrams);
   std::array<long, kParts.size()> before{};
   const std::int64_t lost_before = Sender::lost();
-  const auto behind = [&] { return expected.total(Part::plant) - (rig.timing ? total(counted(*rig.timing)) : 0); };
+  const auto behind = [&] {
+    return expected.total(Part::plant) - (rig.timing ? total(counted(*rig.timing)) : 0);
+  };
   for (std::int64_t i = 0; i < datagrams; ++i) {
     const auto& datagram = garbage.next();
     ASSERT_TRUE(sender.send(datagram.bytes));

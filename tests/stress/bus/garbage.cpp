@@ -8,7 +8,7 @@
 namespace mixloop::stress {
 namespace {
 
-constexpr std::uint32_t kShort = 0x4c433032, kFragment = 0x4c433033;  // "LC02", "LC03"
+constexpr std::uint32_t kShort = 0x4c433032, kFragment = 0x4c433033;            // "LC02", "LC03"
 constexpr std::size_t kDimension = 8, kTick = 20, kSession = 28, kConfig = 36;  // in a message's bytes
 
 template <class Number>

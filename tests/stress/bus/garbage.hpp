@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Datagrams that no receiver may take: random, truncated, oversized, with a wrong n, session, configuration or tick, with
-// numbers that aren't, replayed, in fragments, and no LCM at all.
+// Datagrams that no receiver may take: random, truncated, oversized, with a wrong n, session, configuration
+// or tick, with numbers that aren't, replayed, in fragments, and no LCM at all.
 #pragma once
 
 #include <array>

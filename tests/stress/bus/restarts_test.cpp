@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Processes that are killed and started again, or suspended, in the middle of a run in real time. Whoever is left must
-// neither crash nor hang, no torque may pass its limit, and a reset must bring everything back.
+// Processes that are killed and started again, or suspended, in the middle of a run in real time. Whoever is
+// left must neither crash nor hang, no torque may pass its limit, and a reset must bring everything back.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -76,7 +76,8 @@ TEST(Suspensions, OfEachProcessEndInTheSafeStateAndBeginAnew) {
   BusRig rig({"--realtime"});
   rig.start_all();
   ASSERT_TRUE(rig.runs_anew(0));
-  Figure recovery("suspensions", "s to run again after the reset", 30, static_cast<std::int64_t>(kParts.size()));
+  Figure recovery("suspensions", "s to run again after the reset", 30,
+                  static_cast<std::int64_t>(kParts.size()));
   for (const Part victim : kParts) {
     SCOPED_TRACE(name_of(victim));
     rig.listen(300ms);

@@ -38,9 +38,12 @@ BusRig::BusRig(std::vector<std::string> more, std::vector<std::string> of_plant)
 }
 
 void BusRig::start(Part part) {
-  std::vector<std::string> words = {MIXLOOP_BIN "/mixloop-" + name_of(part), MIXLOOP_EXPERIMENTS "/soak.yaml",
-                                    "--set", "plant.torque_limit=[3, 8, 4]",
-                                    "--set", "controller.safety.torque_limit=[3, 8, 4]"};
+  std::vector<std::string> words = {MIXLOOP_BIN "/mixloop-" + name_of(part),
+                                    MIXLOOP_EXPERIMENTS "/soak.yaml",
+                                    "--set",
+                                    "plant.torque_limit=[3, 8, 4]",
+                                    "--set",
+                                    "controller.safety.torque_limit=[3, 8, 4]"};
   words.insert(words.end(), more_.begin(), more_.end());
   if (part == Part::plant) {
     words.insert(words.end(), {"--hold", "--truth", "--json"});
@@ -59,7 +62,8 @@ void BusRig::kill(Part part) {
 }
 
 long BusRig::memory(Part part) const {
-  std::ifstream statm("/proc/" + std::to_string(processes_[static_cast<std::size_t>(part)]->pid()) + "/statm");
+  std::ifstream statm("/proc/" + std::to_string(processes_[static_cast<std::size_t>(part)]->pid()) +
+                      "/statm");
   long size = 0, resident = 0;
   statm >> size >> resident;
   return resident * (sysconf(_SC_PAGESIZE) / 1024);
@@ -116,8 +120,8 @@ void BusRig::send_reset() {
 }
 
 std::string BusRig::describe() {
-  std::string text = fmt::format("STATE {} of {:x}, flags {}; COMMAND {} of {:x}, flags {}\n", state.seq, state.session,
-                                 state.flags, command.seq, command.session, command.flags);
+  std::string text = fmt::format("STATE {} of {:x}, flags {}; COMMAND {} of {:x}, flags {}\n", state.seq,
+                                 state.session, state.flags, command.seq, command.session, command.flags);
   for (const Part part : kParts) {
     Command& p = process(part);
     const std::string fate = p.running() ? "runs" : fmt::format("has ended with status {}", p.wait());

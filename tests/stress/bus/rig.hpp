@@ -25,8 +25,8 @@ constexpr double growth_bound(double kilobytes) { return MIXLOOP_SANITIZED ? 1e9
 
 class BusRig {
  public:
-  /// The paper's robot, its line there and back for a minute. `more` are options of all three, `of_plant` of the plant
-  /// alone. Nothing is started.
+  /// The paper's robot, its line there and back for a minute. `more` are options of all three, `of_plant` of
+  /// the plant alone. Nothing is started.
   explicit BusRig(std::vector<std::string> more = {}, std::vector<std::string> of_plant = {});
 
   void start(Part part);
@@ -40,8 +40,8 @@ class BusRig {
   bool until(const std::function<bool()>& condition, nanoseconds limit);
   void listen(nanoseconds time);
 
-  /// Resets the plant, and listens until the new session runs: commands of the law past tick 20. A session that the
-  /// machine held up for so long at once that it is in its safe state again is reset again.
+  /// Resets the plant, and listens until the new session runs: commands of the law past tick 20. A session
+  /// that the machine held up for so long at once that it is in its safe state again is reset again.
   bool reset();
   /// The same for a session other than `old` that begins by itself.
   bool runs_anew(std::int64_t old);
@@ -55,8 +55,10 @@ class BusRig {
   command_t command = blank<command_t>(kMotors);  ///< the latest heard
   std::int64_t answered = -1;                     ///< the newest tick whose command was heard, of any session
   std::optional<timing_t> timing;                 ///< the latest heard
-  std::array<std::vector<std::uint8_t>, 3> first_bytes;  ///< of STATE, REFERENCE, COMMAND: an early message each
-  double worst_torque = 0;   ///< commanded or applied, as a share of its limit; infinite where it is not finite
+  std::array<std::vector<std::uint8_t>, 3>
+      first_bytes;  ///< of STATE, REFERENCE, COMMAND: an early message each
+  double worst_torque =
+      0;  ///< commanded or applied, as a share of its limit; infinite where it is not finite
   std::int64_t torques = 0;  ///< looked at
 
   static constexpr int kMotors = 3;
