@@ -22,11 +22,6 @@ namespace {
 constexpr const char* kHeader = "tick,offset_ns,command,how";
 constexpr std::string_view kSafeState = "safe state: ", kFault = "fault: ", kExtrapolated = "extrapolated ";
 
-/// Fault::Target and Fault::Kind in words.
-constexpr std::array<std::string_view, 4> kTargets = {"motor", "sensor", "parameter", "friction"};
-constexpr std::array<std::string_view, 9> kKinds = {"none", "off",     "stuck",        "garbage", "wrong",
-                                                    "slow", "delayed", "intermittent", "changed"};
-
 std::string text_of(const Arrival& arrival) {
   if (arrival.ahead == Arrival::kBlind) return "safe";
   return arrival.ahead == 0 ? "law" : fmt::format("{}{}", kExtrapolated, arrival.ahead);
@@ -36,8 +31,9 @@ std::string text_of(const Arrival& arrival) {
 std::string text_of(const Intervention& i) {
   if (i.cause != nullptr) return fmt::format("{}{}", kSafeState, i.cause);
   const Fault& f = i.fault;
-  return fmt::format("{}{} {} {} {} {} {}", kFault, kTargets[static_cast<std::size_t>(f.target)],
-                     kKinds[static_cast<std::size_t>(f.kind)], f.index + 1, f.magnitude, f.at, f.duration);
+  return fmt::format("{}{} {} {} {} {} {}", kFault, Fault::kTargets[static_cast<std::size_t>(f.target)],
+                     Fault::kKinds[static_cast<std::size_t>(f.kind)], f.index + 1, f.magnitude, f.at,
+                     f.duration);
 }
 
 /// A text that stays where it is as long as the process lives: there are few causes.
@@ -108,7 +104,7 @@ Fault fault_in(std::string_view text, const Line& line) {
   int number = 0;
   Fault fault;
   in >> target >> kind >> number >> fault.magnitude >> fault.at >> fault.duration;
-  const auto which = index_of(kTargets, target), what = index_of(kKinds, kind);
+  const auto which = index_of(Fault::kTargets, target), what = index_of(Fault::kKinds, kind);
   if (in.fail() || in >> rest || !which || !what || number < 0)
     refuse(line, "'fault: TARGET KIND INDEX MAGNITUDE AT FOR'");
   fault.target = static_cast<Fault::Target>(*which);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "dynamics/scene/scene.hpp"
@@ -18,6 +20,9 @@ struct Fault {
   enum class Target : std::uint8_t { motor, sensor, parameter, friction };
   /// As fault_t's KIND constants.
   enum class Kind : std::uint8_t { none, off, stuck, garbage, wrong, slow, delayed, intermittent, changed };
+  static constexpr std::array<std::string_view, 4> kTargets = {"motor", "sensor", "parameter", "friction"};
+  static constexpr std::array<std::string_view, 9> kKinds = {"none", "off",     "stuck",        "garbage", "wrong",
+                                                             "slow", "delayed", "intermittent", "changed"};
 
   Target target = Target::motor;
   Kind kind = Kind::none;  ///< none heals

@@ -89,9 +89,9 @@ class Reader {
     refuse(entry, {"value"}, "belongs to a parameter; expected kind and magnitude");
     fault.target = motor ? Target::motor : Target::sensor;
     fault.index = read_index(*which);
-    static const std::vector<std::string> kKinds = {"none",  "off",  "stuck",   "garbage",
-                                                    "wrong", "slow", "delayed", "intermittent"};
-    fault.kind = static_cast<Kind>(word_of(*entry.at("kind"), kKinds, "the kind of fault"));
+    // All but the last, which is parameters' and friction's.
+    static const std::vector<std::string> kinds(Fault::kKinds.begin(), Fault::kKinds.end() - 1);
+    fault.kind = static_cast<Kind>(word_of(*entry.at("kind"), kinds, "the kind of fault"));
     const Magnitude what = magnitude_of(fault.kind);
     if (what == Magnitude::none) return refuse(entry, {"magnitude"}, "says nothing with this kind of fault");
     const bool linear = scene_.motors[static_cast<std::size_t>(std::max(fault.index, 0))].linear;

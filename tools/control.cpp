@@ -5,12 +5,17 @@
 
 #include "loop/result.hpp"
 #include "notation/errors.hpp"
+#include "plant/faults.hpp"
 #include "tools/bus_line.hpp"
 #include "tools/commands.hpp"
 #include "tools/speed.hpp"
 
 namespace mixloop {
 namespace {
+
+/// fault_t's targets and kinds, in their order.
+const std::vector<std::string> kTargets = {"motor", "sensor", "payload", "friction"};
+const std::vector<std::string> kKinds(Fault::kKinds.begin(), Fault::kKinds.end());
 
 struct Options {
   BusOptions bus;
@@ -81,10 +86,7 @@ int send_fault(const Options& options) {
   Bus bus(options.bus);
   PlantSought plant(bus);
   const Header heard = plant.wait(bus, nanoseconds(static_cast<std::int64_t>(options.patience * 1e9)), stop);
-  static const std::vector<std::string> kTargets = {"motor", "sensor", "payload", "friction"};
-  static const std::vector<std::string> kKinds = {"none", "off",     "stuck",        "garbage", "wrong",
-                                                  "slow", "delayed", "intermittent", "changed"};
-  const auto index = [](const std::vector<std::string>& words, const std::string& word) {
+  const auto index = [](const auto& words, const std::string& word) {
     return static_cast<std::int8_t>(std::find(words.begin(), words.end(), word) - words.begin());
   };
   Outbox<fault_t> fault(heard.n);
@@ -158,13 +160,12 @@ void add_control_command(CLI::App& app, int& status) {
                     [options] { return send_fault(*options); });
   fault->add_option("target", options->target, "motor, sensor, payload or friction")
       ->required()
-      ->check(CLI::IsMember({"motor", "sensor", "payload", "friction"}));
+      ->check(CLI::IsMember(kTargets));
   fault
       ->add_option("kind", options->kind,
                    "none, off, stuck, garbage, wrong, slow, delayed, intermittent; changed")
       ->required()
-      ->check(CLI::IsMember(
-          {"none", "off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent", "changed"}));
+      ->check(CLI::IsMember(kKinds));
   fault->add_option("--index", options->index, "which motor, sensor or parameter, from 1; 0: all")
       ->check(CLI::Range(0, 1000));
   fault->add_option("--magnitude", options->magnitude, "in SI, as docs/experiments.md says of the kind");
