@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+
 #include "runtime/bus.hpp"
+#include "runtime/wire.hpp"
 
 namespace mixloop {
 
@@ -15,6 +18,32 @@ inline bool heard(const char* channel, int times) {
   for (const Instant until = now() + std::chrono::minutes(1); count < times && now() < until;)
     bus.wait(until, never);
   return count >= times;
+}
+
+/// Waits for a STATE that fulfils a condition; false after a minute.
+inline bool heard_state(std::function<bool(const state_t&)> condition) {
+  struct Ear {
+    void on_state(Bytes bytes) {
+      state_t state;
+      if (state.decode(bytes.data(), 0, static_cast<int>(bytes.size())) > 0) fulfilled = condition(state);
+    }
+    std::function<bool(const state_t&)> condition;
+    bool fulfilled = false;
+  } ear{.condition = std::move(condition)};
+  Bus bus;
+  bus.subscribe<&Ear::on_state>(bus.channel("STATE"), &ear);
+  const StopSwitch never;
+  for (const Instant until = now() + std::chrono::minutes(1); !ear.fulfilled && now() < until;)
+    bus.wait(until, never);
+  return ear.fulfilled;
+}
+
+inline bool heard_tick(std::int64_t tick) {
+  return heard_state([tick](const state_t& state) { return state.seq >= tick; });
+}
+
+inline bool heard_safe_state() {
+  return heard_state([](const state_t& state) { return (state.flags & state_t::FLAG_SAFE_STATE) != 0; });
 }
 
 }  // namespace mixloop

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `mixloop run --realtime`, its operator, and its bad days. Slowed down five times, so that a busy machine's
-// holes are short against a tick.
+// `mixloop run --realtime`, its operator, and its bad days. Slowed down five times, so that 20 ticks bear a busy
+// machine's holes; started paused, so that what is done to it takes none of its time.
 #include <gmock/gmock.h>
 
 #include <csignal>
@@ -33,6 +33,23 @@ int pid_of(const Command& run, const std::string& name) {
   return -1;
 }
 
+/// `mixloop control`, which must reach the plant; what it says.
+nlohmann::json control(std::initializer_list<std::string> words) {
+  std::vector<std::string> line = {bin("mixloop"), "control"};
+  line.insert(line.end(), words);
+  line.emplace_back("--json");
+  Command command(line);
+  EXPECT_EQ(command.wait(), 0) << command.err();
+  return command.json();
+}
+
+/// Steps a session that was started paused to a tick.
+nlohmann::json go_to_tick(int tick) {
+  auto before = control({"step", std::to_string(tick), "--patience", "60"});
+  EXPECT_TRUE(heard_tick(tick));
+  return before;
+}
+
 /// The run of `result` again, from the ages.csv in a folder.
 void expect_the_same_again(const nlohmann::json& result, const ScratchFolder& folder) {
   Command again({bin("mixloop"), "simulate", experiment("paper"), "--json", "--ages",
@@ -59,17 +76,19 @@ TEST(RunInRealTime, IsGoneThroughAgainBitByBitFromItsAges) {
 // Bad days at once: references that are extrapolated, then missing, and a motor that gives nothing.
 TEST(RunInRealTime, IsGoneThroughAgainWithItsFaultsAndExtrapolations) {
   const ScratchFolder folder;
-  Command run(real_time({"--out", folder.file("kept"), "--allow-faults"}, "0.5"));
-  ASSERT_TRUE(heard("COMMAND", 50));
-  Command control({bin("mixloop"), "control", "fault", "motor", "off", "--index", "3", "--json"});
-  EXPECT_EQ(control.wait(), 0) << control.err();
+  Command run(real_time({"--out", folder.file("kept"), "--allow-faults", "--paused"}));
+  go_to_tick(50);
+  control({"fault", "motor", "off", "--index", "3"});
   const int planner = pid_of(run, "mixloop-planner");
-  for (const auto pause : {15ms, 15ms, 15ms, 300ms}) {
-    kill(planner, SIGSTOP);
-    std::this_thread::sleep_for(pause);
-    kill(planner, SIGCONT);
-    std::this_thread::sleep_for(30ms);
-  }
+  kill(planner, SIGSTOP);
+  control({"resume"});
+  EXPECT_TRUE(heard_tick(58));
+  kill(planner, SIGCONT);
+  EXPECT_TRUE(heard_tick(70));
+  kill(planner, SIGSTOP);
+  EXPECT_TRUE(heard_safe_state());
+  kill(planner, SIGCONT);
+  control({"speed", "2"});
   EXPECT_EQ(run.wait(), 3) << run.err();
   std::ifstream file(folder.file("kept/ages.csv"));
   const std::string ages{std::istreambuf_iterator<char>(file), {}};
@@ -86,12 +105,15 @@ TEST(RunInRealTime, GoesIntoItsSafeStateWhileAPeerIsSuspended) {
   for (const auto& [victim, cause] : cases) {
     SCOPED_TRACE(victim);
     const ScratchFolder folder;
-    Command run(real_time({"--out", folder.file("kept")}, "0.5"));
-    ASSERT_TRUE(heard("COMMAND", 50));
+    Command run(real_time({"--out", folder.file("kept"), "--paused"}));
+    go_to_tick(50);
     const int pid = pid_of(run, victim);
+    control({"resume"});
     kill(pid, SIGSTOP);
-    std::this_thread::sleep_for(500ms);
+    std::this_thread::sleep_for(500ms);  // 100 ticks; 20 are borne
     kill(pid, SIGCONT);
+    EXPECT_TRUE(heard_safe_state());
+    control({"speed", "2"});
     EXPECT_EQ(run.wait(), 3) << run.err();
     const auto result = run.json();
     EXPECT_EQ(result["verdict"], "safe_state");
@@ -105,29 +127,20 @@ TEST(RunInRealTime, GoesIntoItsSafeStateWhileAPeerIsSuspended) {
 
 TEST(RunInRealTime, IsPausedSteppedResetAndStoppedByItsOperator) {
   Command run(real_time({"--paused", "--hold"}, "1"));
-  const auto control = [](std::initializer_list<std::string> words) {
-    std::vector<std::string> line = {bin("mixloop"), "control"};
-    line.insert(line.end(), words);
-    line.emplace_back("--json");
-    Command command(line);
-    EXPECT_EQ(command.wait(), 0) << command.err();
-    return command.json();
-  };
-  ASSERT_TRUE(heard("COMMAND", 1));
+  EXPECT_TRUE(heard_tick(0));
   const auto paused = control({"step", "10"});
-  std::this_thread::sleep_for(300ms);
-  const auto stepped = control({"speed", "0.5"});
   EXPECT_EQ(paused["tick"], 0);
-  EXPECT_EQ(stepped["tick"], 10);
-  control({"resume"});
-  ASSERT_TRUE(heard("COMMAND", 20));
-  const auto going = control({"reset"});
-  EXPECT_GT(going["tick"], 10);
+  EXPECT_TRUE(heard_tick(10));
   std::this_thread::sleep_for(300ms);
-  const auto fresh = control({"resume"});
-  EXPECT_NE(fresh["session"], paused["session"]);
-  EXPECT_EQ(fresh["tick"], 0) << "it was started paused, and so is the new session";
-  ASSERT_TRUE(heard("COMMAND", 20));
+  EXPECT_EQ(control({"speed", "0.5"})["tick"], 10) << "it goes no further";
+  control({"resume"});
+  EXPECT_TRUE(heard_tick(30));
+  EXPECT_GE(control({"reset"})["tick"], 30);
+  const std::int64_t session = paused["session"];
+  EXPECT_TRUE(heard_state([session](const state_t& state) { return state.session != session; }));
+  std::this_thread::sleep_for(300ms);
+  EXPECT_EQ(control({"resume"})["tick"], 0) << "it was started paused, and so is the new session";
+  EXPECT_TRUE(heard_tick(20));
   control({"stop"});
   EXPECT_EQ(run.wait(), 130) << run.err();
 }
@@ -136,16 +149,13 @@ TEST(RunInRealTime, IsPausedSteppedResetAndStoppedByItsOperator) {
 TEST(RunInRealTime, ObeysAFaultOnlyWhereThatIsAllowed) {
   for (const bool allowed : {true, false}) {
     SCOPED_TRACE(allowed);
-    std::vector<std::string> line = {bin("mixloop"), "run",   experiment("paper"),        "--json", "--speed",
-                                     "0.5",          "--set", "limits.position_error=1 m"};
-    if (allowed) line.emplace_back("--allow-faults");
-    Command run(line);
-    ASSERT_TRUE(heard("COMMAND", 100));
-    Command reset({bin("mixloop"), "control", "reset", "--json"});
-    EXPECT_EQ(reset.wait(), 0) << reset.err();
-    ASSERT_TRUE(heard("COMMAND", 100));
-    Command control({bin("mixloop"), "control", "fault", "motor", "off", "--index", "2", "--json"});
-    EXPECT_EQ(control.wait(), 0) << control.err();
+    Command run(allowed ? real_time({"--paused", "--allow-faults"}, "0.5") : real_time({"--paused"}));
+    const std::int64_t session = go_to_tick(50)["session"];
+    control({"reset"});
+    EXPECT_TRUE(heard_state([session](const state_t& state) { return state.session != session; }));
+    go_to_tick(50);
+    control({"fault", "motor", "off", "--index", "2"});
+    control({"resume"});
     run.wait();
     const auto result = run.json();
     ASSERT_TRUE(result.contains("max_position_error")) << result;

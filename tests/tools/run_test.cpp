@@ -158,9 +158,9 @@ TEST(Run, ReportsDivergenceAndPublishesNothingOfIt) {
 
 TEST(Run, EndsInOrderOnCtrlC) {
   ScratchFolder folder;
-  Command command(run_line({"--speed", "0.5", "--out", folder.file("kept")}));
+  Command command(run_line({"--speed", "0.2", "--out", folder.file("kept")}));
   ASSERT_TRUE(eventually([&] { return command.children().size() == 3; }));
-  ASSERT_TRUE(heard("COMMAND", 100));
+  ASSERT_TRUE(heard("COMMAND", 20));
   const auto children = command.children();
   command.signal(SIGINT);
   EXPECT_EQ(command.wait(), 130) << command.err();
@@ -195,10 +195,10 @@ TEST(Run, LeavesNoProcessBehindWhenItIsKilledItself) {
 }
 
 TEST(Run, SaysThatAPeerIsLost) {
-  Command command(run_line({"--without", "controller", "--patience", "0.3", "--speed", "1"}));
+  Command command(run_line({"--without", "controller", "--patience", "0.3", "--speed", "0.2"}));
   std::optional<Command> stranger;
   stranger.emplace(std::vector<std::string>{bin("mixloop-controller"), experiment("paper")});
-  ASSERT_TRUE(heard("COMMAND", 100));
+  ASSERT_TRUE(heard("COMMAND", 20));
   stranger->signal(SIGKILL);
   EXPECT_EQ(command.wait(), 3);
   EXPECT_THAT(command.json()["error"]["message"].get<std::string>(), HasSubstr("MIXLOOP_COMMAND"));
