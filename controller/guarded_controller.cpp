@@ -42,21 +42,19 @@ std::string GuardedController::start_refusal(std::span<const double> psi, const 
 CommandMarks GuardedController::torque(std::span<const double> psi, std::span<const double> psid, bool stale,
                                        const Reference& reference, double t, std::span<double> tau) {
   stale_ = stale ? stale_ + 1 : 0;
-  if (out_of_range_ || !in_range(psi, psid)) return safe_torque(tau);
-  if (stale_ > settings_.max_stale) return safe_torque(tau);
+  if (out_of_range_ || !in_range(psi, psid)) return safe(tau);
+  if (stale_ > settings_.max_stale) return safe(tau);
   if (!stale) trusted_psid_ = map_of(psid);
   controller_.torque(psi, psid, reference, t, tau);
   return {.limited = limit(t, tau)};
 }
 
-CommandMarks GuardedController::safe_torque(std::span<double> tau) {
+void GuardedController::safe_torque(std::span<double> tau) const {
   Eigen::Map<Vector> out(tau.data(), static_cast<Eigen::Index>(tau.size()));
   if (settings_.safe_command == SafeCommand::damp)
     out = -damping_.cwiseProduct(trusted_psid_);
   else
     out.setZero();
-  when_.reset();  // the law starts anew, without a rate limit, once it is trusted again
-  return {.safe = true};
 }
 
 bool GuardedController::in_range(std::span<const double> psi, std::span<const double> psid) {

@@ -32,8 +32,8 @@ class GuardedController {
   CommandMarks torque(std::span<const double> psi, std::span<const double> psid, bool stale,
                       const Reference& reference, double t, std::span<double> tau);
 
-  /// The safe command on its own, where no state or reference came.
-  CommandMarks safe_torque(std::span<double> tau);
+  /// The safe command on its own, where no state or reference came. Nothing is remembered of it.
+  void safe_torque(std::span<double> tau) const;
 
   /// The motor whose state was out of range, counted from 1.
   std::optional<int> out_of_range() const { return out_of_range_; }
@@ -42,6 +42,7 @@ class GuardedController {
   Controller& law() { return controller_; }
 
  private:
+  CommandMarks safe(std::span<double> tau) const { return safe_torque(tau), CommandMarks{.safe = true}; }
   bool in_range(std::span<const double> psi, std::span<const double> psid);
   bool limit(double t, std::span<double> tau);
 
@@ -49,8 +50,8 @@ class GuardedController {
   SafetySettings settings_;
   Vector damping_;
   Vector trusted_psid_;         ///< of the last state that was trusted
-  Vector before_;               ///< the last command
-  std::optional<double> when_;  ///< s, that of the last command
+  Vector before_;               ///< the law's last command
+  std::optional<double> when_;  ///< s, that of the law's last command
   std::optional<int> out_of_range_;
   int stale_ = 0;  ///< states in a row
 };

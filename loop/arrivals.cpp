@@ -29,18 +29,18 @@ class Commands {
   void compute(std::int64_t k, const MeasuredState& state) {
     while (next_ != end_ && next_->command < k) ++next_;
     if (next_ == end_ || next_->command != k) return;
-    const std::int64_t ahead = next_->ahead;
-    if (ahead == Arrival::kBlind) {
-      controller_.safe_torque(at(k));
-      return;
-    }
+    if (next_->ahead != Arrival::kBlind) go_by_law(k, next_->ahead, state);
+    if (next_->ahead == Arrival::kBlind || next_->afterwards) controller_.safe_torque(at(k));
+  }
+
+ private:
+  void go_by_law(std::int64_t k, std::int64_t ahead, const MeasuredState& state) {
     const Reference reference =
         ahead == 0 ? plan_.at(k) : later_.take(plan_.at(k - ahead), static_cast<double>(ahead) / rate_hz_);
     const double t = static_cast<double>(k) / rate_hz_;
     controller_.torque(state.psi(), state.psid(), state.stale(), reference, t, at(k));
   }
 
- private:
   const Plan& plan_;
   double rate_hz_;
   std::size_t n_;
@@ -72,7 +72,7 @@ void simulate_arrivals(const Experiment& experiment, const Plan& plan, const Arr
       event->cause != nullptr ? hardware.make_safe(event->cause) : void(hardware.inject(event->fault));
     recorder.note_changes(k, plant.faults());
     for (; next != arrivals.commands.end() && next->tick == k; ++next)
-      hardware.command(next->command, next->offset, commands.at(next->command));
+      hardware.command(*next, commands.at(next->command));
     const bool is_safe = hardware.safe().has_value();
     if (!was_safe && is_safe) recorder.made_safe(k);
     hardware.finish_tick();

@@ -20,11 +20,14 @@ namespace mixloop {
 namespace {
 
 constexpr const char* kHeader = "tick,offset_ns,command,how";
-constexpr std::string_view kSafeState = "safe state: ", kFault = "fault: ", kExtrapolated = "extrapolated ";
+constexpr std::string_view kSafeState = "safe state: ", kFault = "fault: ", kExtrapolated = "extrapolated ",
+                           kAfterwards = " then safe";
 
 std::string text_of(const Arrival& arrival) {
-  if (arrival.ahead == Arrival::kBlind) return "safe";
-  return arrival.ahead == 0 ? "law" : fmt::format("{}{}", kExtrapolated, arrival.ahead);
+  const std::string how = arrival.ahead == Arrival::kBlind ? "safe"
+                          : arrival.ahead == 0             ? "law"
+                                               : fmt::format("{}{}", kExtrapolated, arrival.ahead);
+  return arrival.afterwards ? fmt::format("{}{}", how, kAfterwards) : how;
 }
 
 /// Of a fault: target, kind, index from 1 (0: all), magnitude, from, for.
@@ -81,13 +84,15 @@ Arrival arrival_in(const Line& line) {
   Arrival arrival{.tick = whole_number(line.fields[0], line),
                   .offset = whole_number(line.fields[1], line),
                   .command = whole_number(line.fields[2], line)};
-  const std::string_view how = line.fields[3];
+  std::string_view how = line.fields[3];
+  arrival.afterwards = how.ends_with(kAfterwards);
+  if (arrival.afterwards) how.remove_suffix(kAfterwards.size());
   if (how == "safe")
     arrival.ahead = Arrival::kBlind;
   else if (how.starts_with(kExtrapolated))
     arrival.ahead = whole_number(how.substr(kExtrapolated.size()), line);
   else if (how != "law")
-    refuse(line, "'law', 'extrapolated N' or 'safe' at its end");
+    refuse(line, "'law', 'extrapolated N' or 'safe' at its end, or one of them 'then safe'");
   return arrival;
 }
 

@@ -16,6 +16,7 @@ struct Arrival {
   std::int64_t offset = 0;   ///< ns of plant time after the tick's start
   std::int64_t command = 0;  ///< the tick that it answers
   std::int64_t ahead = 0;    ///< ticks by which its reference was extrapolated; kBlind: safe, for want of one
+  bool afterwards = false;   ///< a safe one, after one that came to be like that and was lost
 };
 
 /// Somebody's doing that no command tells of.

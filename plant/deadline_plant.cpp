@@ -22,14 +22,14 @@ DeadlinePlant::DeadlinePlant(Plant plant, const PlantSettings& settings, Deadlin
   arrivals_.interventions.reserve(kInjected + 1);
 }
 
-void DeadlinePlant::command(std::int64_t tick, std::int64_t offset, std::span<const double> tau,
-                            std::int64_t ahead) {
-  if (tick <= newest_) return;
-  newest_ = tick;
+void DeadlinePlant::command(Arrival arrival, std::span<const double> tau) {
+  if (arrival.command <= newest_) return;
+  newest_ = arrival.command;
+  arrival.tick = plant_.tick();
   auto& commands = arrivals_.commands;
-  if (commands.size() < commands.capacity())
-    commands.push_back({.tick = plant_.tick(), .offset = offset, .command = tick, .ahead = ahead});
-  const double at = tick == 0 ? 0 : std::max(1e-9 * static_cast<double>(offset), 0.0) + delay_;
+  if (commands.size() < commands.capacity()) commands.push_back(arrival);
+  const bool first = arrival.command == 0;
+  const double at = first ? 0 : std::max(1e-9 * static_cast<double>(arrival.offset), 0.0) + delay_;
   const double ticks_later = std::floor(at / tick_length_ * (1 + 1e-12));
   queue(plant_.tick() + static_cast<std::int64_t>(ticks_later), at - ticks_later * tick_length_, tau);
 }

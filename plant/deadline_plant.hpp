@@ -24,10 +24,9 @@ class DeadlinePlant {
   Plant& plant() { return plant_; }
   const Plant& plant() const { return plant_; }
 
-  /// COMMAND(`tick`) arrives `offset` ns of plant time after the start of the tick in hand. Older ones than
-  /// the newest one are no news. COMMAND(0) acts at once, whatever the delay: the robot starts held. `ahead` is
-  /// kept with it, as Arrival has it.
-  void command(std::int64_t tick, std::int64_t offset, std::span<const double> tau, std::int64_t ahead = 0);
+  /// A command arrives, in the tick in hand whatever `arrival` says. Older ones than the newest one are no news.
+  /// COMMAND(0) acts at once, whatever the delay: the robot starts held.
+  void command(Arrival arrival, std::span<const double> tau);
 
   /// Goes on to the next tick.
   void finish_tick();

@@ -113,9 +113,13 @@ PlantSide PlantSession::side() {
   };
   side.advance = [this](std::int64_t k, std::span<const double> tau) { return advance(k, tau); };
   side.command = [this](const command_t& command, std::int64_t offset) {
-    const bool blind = (command.flags & command_t::FLAG_WITHOUT_REFERENCE) != 0;
-    hardware_.command(command.seq, offset, command.tau_commanded,
-                      blind ? Arrival::kBlind : extrapolated_by(command));
+    const auto has = [&](std::int32_t flag) { return (command.flags & flag) != 0; };
+    const bool blind = has(command_t::FLAG_WITHOUT_REFERENCE);
+    hardware_.command({.offset = offset,
+                       .command = command.seq,
+                       .ahead = blind ? Arrival::kBlind : extrapolated_by(command),
+                       .afterwards = has(command_t::FLAG_AFTERWARDS)},
+                      command.tau_commanded);
   };
   side.finish_tick = [this](std::int64_t k) { return finish_tick(k); };
   side.make_safe = [this](const char* cause) { make_safe(cause); };

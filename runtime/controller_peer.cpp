@@ -25,6 +25,7 @@ ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptio
       link_(bus, stop, options),
       inbox_(options.n),
       command_(options.n),
+      safe_(options.n),
       reference_channel_(bus.channel("REFERENCE")),
       command_channel_(bus.channel("COMMAND")),
       ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n)}) {
@@ -38,7 +39,7 @@ Ending ControllerPeer::run() {
     drained_ = event == PlantLink::Event::nothing;
     switch (event) {
       case PlantLink::Event::over:
-        if (link_.ending() == Ending::stopped && in_real_time()) send_safe(command_t::FLAG_STOPPED);
+        if (link_.ending() == Ending::stopped && in_real_time()) send_safe_afterwards(command_t::FLAG_STOPPED);
         return link_.ending();
       case PlantLink::Event::fresh:
         if (link_.first_of_session()) begin_session();
@@ -112,7 +113,7 @@ void ControllerPeer::attend_to_time() {
   if (tick <= answered_) {
     if (!silence_answered_ && now() - asked_ >= ticks(options_.max_missed)) {
       silence_answered_ = true;
-      send_safe(0);
+      send_safe_afterwards(0);
     }
     return;
   }
@@ -122,8 +123,7 @@ void ControllerPeer::attend_to_time() {
     ++link_.report.extrapolated;
     return answer(*reference);
   }
-  send_safe(command_t::FLAG_WITHOUT_REFERENCE);
-  answered_ = tick;
+  answer_safely();
 }
 
 const reference_t* ControllerPeer::newest_before(std::int64_t tick) const {
@@ -134,16 +134,30 @@ const reference_t* ControllerPeer::newest_before(std::int64_t tick) const {
   return newest != nullptr && tick - newest->tick <= farthest ? &newest->message : nullptr;
 }
 
-void ControllerPeer::send_safe(std::int32_t flags) {
-  command_t& message = command_.message;
+void ControllerPeer::answer_safely() {
+  fill_safe(command_.message, command_t::FLAG_WITHOUT_REFERENCE);
+  bus_.publish(command_channel_, command_.encode());
+  answered_ = link_.latest();
+  ++link_.report.safe_commands;
+}
+
+// Where the answer itself got lost the plant may take this in its place: it says how that came to be.
+void ControllerPeer::send_safe_afterwards(std::int32_t flags) {
+  const bool answered = answered_ == link_.latest();
+  const std::int32_t before = answered ? command_.message.flags | command_t::FLAG_AFTERWARDS
+                                       : std::int32_t{command_t::FLAG_WITHOUT_REFERENCE};
+  fill_safe(safe_.message, before | flags);
+  bus_.publish(command_channel_, safe_.encode());
+  ++link_.report.safe_commands;
+}
+
+void ControllerPeer::fill_safe(command_t& message, std::int32_t flags) const {
   if (side_.safe)
     side_.safe(message.tau_commanded);
   else
     std::fill(message.tau_commanded.begin(), message.tau_commanded.end(), 0.0);
   set_header(message, link_.answer_header(link_.latest(), link_.state().utime));
   message.flags = flags | command_t::FLAG_SAFE;
-  bus_.publish(command_channel_, command_.encode());
-  ++link_.report.safe_commands;
 }
 
 void ControllerPeer::repeat() {

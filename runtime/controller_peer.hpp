@@ -19,7 +19,8 @@ struct ControllerSide {
   std::function<std::int32_t(const state_t& state, const reference_t& reference, std::int64_t ahead,
                              std::span<double> tau)>
       compute;
-  /// Optional: a safe command where there is no state or reference to go by; zero torque without it.
+  /// Optional: a safe command where there is no state or reference to go by; zero torque without it. Must
+  /// leave no trace in the law: it isn't known whether the plant takes it.
   std::function<void(std::span<double> tau)> safe;
   /// Optional: called with the first STATE of every session, before its compute; forgets what was. May
   /// allocate and throw.
@@ -33,8 +34,9 @@ struct ControllerSide {
 /// answered by the same bytes, an older one is dropped.
 ///
 /// Where the plant keeps real time, only the latest STATE is answered. A REFERENCE that isn't there after a
-/// quarter of a tick is extrapolated from the last one, for at most `max_missed` ticks; after that, after as
-/// many ticks without a STATE, and on a STOP, a safe command is sent. Tick 0 waits for its reference.
+/// quarter of a tick is extrapolated from the last one, for at most `max_missed` ticks; after that the answer is
+/// a safe command. One more is sent after as many ticks without a STATE, and on a STOP. Tick 0 waits for its
+/// reference.
 ///
 /// After start-up a tick costs no allocation, lock or throw of ours.
 class ControllerPeer {
@@ -67,7 +69,9 @@ class ControllerPeer {
   Instant next_look() const;
   void attend_to_time();
   const reference_t* newest_before(std::int64_t tick) const;
-  void send_safe(std::int32_t flags);
+  void answer_safely();
+  void send_safe_afterwards(std::int32_t flags);
+  void fill_safe(command_t& message, std::int32_t flags) const;
   void repeat();
   void require_planner() const;
   void on_reference(Bytes bytes);
@@ -77,7 +81,8 @@ class ControllerPeer {
   ControllerSide side_;
   PlantLink link_;
   Inbox<reference_t> inbox_;
-  Outbox<command_t> command_;
+  Outbox<command_t> command_;  // the answer to the latest tick that has one
+  Outbox<command_t> safe_;     // what is said beside the answers
   const std::string reference_channel_, command_channel_;
 
   std::vector<Kept> ring_;

@@ -37,10 +37,10 @@ Ending LockstepPlant::run_ticks() {
     if (k > 0)
       if (const Answer a = port_.wait_for_due(k); a != Answer::due) return early_ending(k, a);
     if (!port_.publish_state(k)) return Ending::broken_off;
-    port_.want_from(k);
     if (k > 0) port_.publish_truth(k - 1);
     port_.publish_timing({});
     if (const Answer a = port_.wait_for_command(); a != Answer::command) return early_ending(k, a);
+    port_.want_from(k + 1);
 
     const Instant arrived = now();
     if (k == 0) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "notation/errors.hpp"
 #include "runtime/config_hash.hpp"
@@ -94,7 +95,6 @@ bool PlantPort::publish_state(std::int64_t tick, std::int32_t flags) {
   message.flags = state_flags_ | flags | (stale ? state_t::FLAG_STALE : 0);
   if (!is_finite(message)) return false;
   tick_ = tick;
-  command_heard_ = false;
   sent_ = now();
   bus_.publish(state_channel_, state_.encode());
   return true;
@@ -170,14 +170,11 @@ PlantPort::Answer PlantPort::wait_for_command() {
 
 PlantPort::Answer PlantPort::wait_until(Instant due) {
   for (;;) {
+    if (std::exchange(command_heard_, false)) return Answer::command;
     const Wake wake = bus_.wait(due, stop_);
     if (const Answer answer = asked(); answer != Answer::due) return answer;
-    if (command_heard_) {
-      command_heard_ = false;
-      return Answer::command;
-    }
     require_agreement();
-    if (wake == Wake::deadline || now() >= due) return Answer::due;
+    if (!command_heard_ && (wake == Wake::deadline || now() >= due)) return Answer::due;
   }
 }
 
@@ -212,12 +209,16 @@ PlantPort::Answer PlantPort::began(std::int64_t tick) {
   return stop_.turned() ? Answer::interrupted : Answer::due;
 }
 
+// A command that comes meanwhile is left for the tick that begins then.
 PlantPort::Answer PlantPort::wait_while_held() {
+  Instant repeat = now() + kHeldInterval;
   do {
-    const Instant until = now() + kHeldInterval;
-    const Answer answer = wait_until(until);
-    if (answer != Answer::due && answer != Answer::command) return answer;
-    if (answer == Answer::due) bus_.publish(state_channel_, state_.encoded());
+    const Wake wake = bus_.wait(repeat, stop_);
+    if (const Answer answer = asked(); answer != Answer::due) return answer;
+    require_agreement();
+    if (wake != Wake::deadline && now() < repeat) continue;
+    bus_.publish(state_channel_, state_.encoded());
+    repeat = now() + kHeldInterval;
   } while (!conductor_.lets_go());
   return Answer::due;
 }

@@ -71,8 +71,7 @@ class Replay {
     if (logged.session != session_ || logged.config != config_ || logged.seq <= latest_) return;
     const auto state = state_of_.find(logged.seq);
     const auto reference = reference_of_.find(logged.seq - extrapolated_by(logged));
-    const std::int32_t blind = std::int32_t{command_t::FLAG_WITHOUT_REFERENCE} | command_t::FLAG_STOPPED;
-    const bool of_the_law = (logged.flags & blind) == 0;
+    const bool of_the_law = (logged.flags & command_t::FLAG_WITHOUT_REFERENCE) == 0;
     if (latest_ < 0 && state != state_of_.end()) side_.begin(state->second);
     latest_ = logged.seq;
     if (state == state_of_.end() || (of_the_law && reference == reference_of_.end())) {
@@ -82,8 +81,10 @@ class Replay {
     command_t& again = again_.message;
     set_header(again, header_of(logged));
     again.utime = state->second.utime;
-    const std::int32_t of_the_peer = std::int32_t{command_t::FLAG_JOINED_LATE} | blind;
+    const std::int32_t of_the_peer = std::int32_t{command_t::FLAG_JOINED_LATE} | command_t::FLAG_STOPPED |
+                                     command_t::FLAG_WITHOUT_REFERENCE | command_t::FLAG_AFTERWARDS;
     again.flags = (logged.flags & of_the_peer) | answer(state->second, of_the_law ? &reference->second : nullptr);
+    if ((logged.flags & command_t::FLAG_AFTERWARDS) != 0) again.flags |= make_safe();
     const Bytes encoded = again_.encode();
     ++result_.commands;
     if (std::equal(encoded.begin(), encoded.end(), bytes.begin(), bytes.end()))
@@ -95,9 +96,14 @@ class Replay {
   /// Fills again_ in; null: there was no reference. The flags.
   std::int32_t answer(const state_t& state, const reference_t* reference) {
     auto& tau = again_.message.tau_commanded;
-    if (reference == nullptr) return side_.safe(tau), command_t::FLAG_SAFE;
+    if (reference == nullptr) return make_safe();
     const std::int64_t ahead = state.seq - reference->seq;
     return side_.compute(state, *reference, ahead, tau) | extrapolation_flags(ahead);
+  }
+
+  std::int32_t make_safe() {
+    side_.safe(again_.message.tau_commanded);
+    return command_t::FLAG_SAFE;
   }
 
   GuardedController controller_;

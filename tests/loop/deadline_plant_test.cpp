@@ -25,7 +25,7 @@ struct Bench {
     for (std::int64_t i = 0; i < ticks; ++i) {
       const std::int64_t k = plant().tick();
       controller.torque(plant().psi(), plant().psid(), false, plan.at(k), plant().time(), span_of(tau));
-      hardware.command(k, 100'000, span_of(std::as_const(tau)));
+      hardware.command({.offset = 100'000, .command = k}, span_of(std::as_const(tau)));
       hardware.finish_tick();
     }
   }
@@ -124,9 +124,9 @@ TEST(DeadlinePlant, goes_its_way_when_commands_come_late_and_doubled) {
   bench.live(10);
   const std::vector<double> more = {1, 2, 3}, old = {9, 9, 9};
   bench.hardware.finish_tick();
-  bench.hardware.command(10, 5, more);  // of the tick before: newer than what is in effect
-  bench.hardware.command(10, 6, old);   // doubled
-  bench.hardware.command(4, 7, old);    // older
+  bench.hardware.command({.offset = 5, .command = 10}, more);  // of the tick before: newer than what is in effect
+  bench.hardware.command({.offset = 6, .command = 10}, old);   // doubled
+  bench.hardware.command({.offset = 7, .command = 4}, old);    // older
   bench.hardware.finish_tick();
   EXPECT_EQ(map_of(bench.hardware.commanded()), map_of(std::span<const double>(more)));
   EXPECT_EQ(bench.hardware.missed(), 2);
