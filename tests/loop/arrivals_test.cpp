@@ -86,6 +86,21 @@ TEST(Arrivals, know_of_safe_commands_and_of_the_safe_state_that_they_brought) {
   EXPECT_DOUBLE_EQ(*measures.safe_at, 0.42);
 }
 
+// The law has been asked all the same: what it remembers for its rate limit is that answer.
+TEST(Arrivals, know_of_safe_commands_after_the_laws_own) {
+  const auto experiment = paper({{"limits.position_error", "1 m"},
+                                 {"controller.safety.torque_rate_limit", "[50 N m/s, 50 N m/s, 50 N m/s]"}});
+  auto arrivals = all_after(50'000);
+  arrivals.commands[400].ahead = Arrival::kBlind;
+  const Measures blind = measured(experiment, &arrivals);
+  arrivals.commands[400].ahead = 0;
+  const Measures law = measured(experiment, &arrivals);
+  arrivals.commands[400].afterwards = true;
+  const Measures afterwards = measured(experiment, &arrivals);
+  EXPECT_NE(afterwards.trajectory_sha256, law.trajectory_sha256) << "no torque in tick 400";
+  EXPECT_NE(afterwards.trajectory_sha256, blind.trajectory_sha256) << "1 ms less to catch up in";
+}
+
 TEST(Arrivals, know_of_faults_by_message) {
   auto experiment = paper({{"limits.position_error", "1 m"}});
   experiment.plant.faults.injected = true;

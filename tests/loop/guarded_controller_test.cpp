@@ -56,6 +56,18 @@ TEST(GuardedController, keeps_to_a_torque_rate) {
   EXPECT_NEAR(bench.tau[0], 1, 1e-12);
 }
 
+// Who replays a run knows only the commands that were taken.
+TEST(GuardedController, remembers_nothing_of_a_safe_command_beside_the_law) {
+  Bench bench("{torque_rate_limit: [100 N m/s, 100 N m/s, 100 N m/s], safe_command: damp}");
+  bench.at(0);
+  bench.psi[0] -= 0.01;
+  Vector safe = Vector::Ones(3);
+  bench.controller.safe_torque(span_of(safe));
+  EXPECT_EQ(safe, Vector::Zero(3)) << "at rest";
+  EXPECT_TRUE(bench.at(0.001).limited);
+  EXPECT_NEAR(bench.tau[0], 0.1, 1e-12) << "from the law's own last torque, and since then";
+}
+
 TEST(GuardedController, stays_safe_once_the_state_is_out_of_range) {
   Bench bench("{velocity_limit: [5 rad/s, 5 rad/s, 5 rad/s], safe_command: damp}");
   bench.psid[1] = 4;

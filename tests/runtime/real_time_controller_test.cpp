@@ -90,12 +90,17 @@ TEST_F(RealTimeController, has_a_missing_reference_extrapolated_for_some_ticks) 
 TEST_F(RealTimeController, sends_one_safe_command_where_the_plant_falls_silent) {
   script_.send_reference(0, 5);
   send_state(0);
-  command(0);
+  const command_t own = command(0);
   const Instant quiet = now();
   const command_t c = command(0);
-  EXPECT_EQ(c.flags, command_t::FLAG_SAFE);
+  EXPECT_EQ(c.flags, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_AFTERWARDS);
+  EXPECT_EQ(c.tau_commanded[0], -1);
   EXPECT_GE(now() - quiet, 80ms) << "5 ticks of 20 ms, less what went before";
   EXPECT_FALSE(script_.next<command_t>("COMMAND", 200ms)) << "once";
+  send_state(0);  // a plant that is paused
+  const command_t again = command(0);
+  EXPECT_EQ(again.tau_commanded, own.tau_commanded) << "its own answer, by which it is lived through again";
+  EXPECT_EQ(again.flags, own.flags);
 }
 
 TEST_F(RealTimeController, sends_a_safe_command_on_stop_and_leaves) {
@@ -103,7 +108,7 @@ TEST_F(RealTimeController, sends_a_safe_command_on_stop_and_leaves) {
   send_state(0);
   command(0);
   script_.send("STOP", ScriptedPeer::message<stop_t>(0));
-  EXPECT_EQ(command(0).flags, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_STOPPED);
+  EXPECT_EQ(command(0).flags, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_STOPPED + command_t::FLAG_AFTERWARDS);
   EXPECT_EQ(peer_->ending(), Ending::stopped);
 }
 
