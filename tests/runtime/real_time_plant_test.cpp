@@ -197,7 +197,7 @@ TEST_F(RealTime, takes_a_command_that_comes_in_a_pause_into_the_next_tick) {
   ASSERT_TRUE(eventually([&] { return done_ == 2; }));  // and COMMAND(1) has not come
   std::this_thread::sleep_for(20ms);
   send_command(1, 10);
-  send_command(1, 20, command_t::FLAG_SAFE | command_t::FLAG_AFTERWARDS);
+  send_command(1, 20, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_AFTERWARDS);
   std::this_thread::sleep_for(20ms);
   send_control(sim_control_t::ACTION_RESUME);
   EXPECT_EQ(plant_->ending(), Ending::finished);
