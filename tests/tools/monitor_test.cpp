@@ -6,6 +6,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/terminal.hpp"
+#include "tests/tools/heard.hpp"
 #include "tests/tools/paths.hpp"
 
 namespace mixloop {
@@ -21,7 +22,7 @@ TEST(Monitor, MeasuresWhatTheRunItselfMeasures) {
   Command by_experiment(
       {bin("mixloop"), "monitor", experiment("paper"), "--json", "--seconds", "60", "--patience", "60"}),
       by_truth({bin("mixloop"), "monitor", "--json", "--seconds", "60", "--patience", "60"});
-  std::this_thread::sleep_for(500ms);  // to be there before the run; were they not, `lost` would not say so
+  ASSERT_TRUE(eventually([] { return listeners() == 2; })) << "were they late, `lost` would not say so";
   Command run({bin("mixloop"), "run", experiment("paper"), "--truth", "--json", "--speed", "1"});
   ASSERT_EQ(run.wait(), 0) << run.err();
   const auto own = run.json();

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/support/command.hpp"
+#include "tests/tools/heard.hpp"
 #include "tests/tools/paths.hpp"
 
 namespace mixloop {
@@ -47,8 +48,9 @@ TEST(Track, GivesTheSameOverTheBus) {
 
 TEST(Track, JudgesProcessesThatAreAlreadyRunning) {
   Command listener({bin("mixloop"), "track", experiment("paper"), "--attach", "--json"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  Command run({bin("mixloop"), "run", experiment("paper"), "--speed", "1", "--json"});
+  ASSERT_TRUE(eventually([] { return listeners() == 1; }));
+  // Slowly: a listener whose core is away for 50 ms must not lose a message.
+  Command run({bin("mixloop"), "run", experiment("paper"), "--speed", "0.3", "--json"});
   ASSERT_EQ(run.wait(), 0) << run.err();
   ASSERT_EQ(listener.wait(), 0) << listener.out() << listener.err();
   const auto heard = listener.json()["results"][0];

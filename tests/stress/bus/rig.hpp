@@ -60,6 +60,7 @@ class BusRig {
   double worst_torque =
       0;  ///< commanded or applied, as a share of its limit; infinite where it is not finite
   std::int64_t torques = 0;  ///< looked at
+  std::int64_t held_up = 0;  ///< sessions that the machine brought into their safe state
 
   static constexpr int kMotors = 3;
 
