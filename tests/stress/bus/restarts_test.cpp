@@ -48,6 +48,7 @@ TEST(Restarts, OfARandomProcessEndInTheSafeStateAndBeginAnew) {
     const bool again = killed_and_restarted(rig, victim);
     recovery.look(again ? seconds(now() - begin) : HUGE_VAL, where);
     torque.look(rig.worst_torque, where);
+    recovery.note(std::to_string(rig.held_up) + " sessions held up by the machine itself");
     ASSERT_TRUE(again) << where() << "\n" << rig.describe();
   }
 }
