@@ -121,7 +121,8 @@ std::vector<int> Skeleton::joints_of_motors(const std::vector<Posture>& poses) c
 nlohmann::json Skeleton::description() const {
   using nlohmann::json;
   const auto list = [](const Eigen::Vector3d& v) { return json{v[0], v[1], v[2]}; };
-  json frames = json::array(), bodies = json::array(), motors = json::array(), closures = json::array();
+  json frames = json::array(), bodies = json::array(), motors = json::array(), closures = json::array(),
+       solids = json::array();
   frames.push_back({{"name", scene_->frames[0]}, {"parent", -1}, {"home", list(at_home_[0])}});
   for (std::size_t i = 0; i < model_.links.size(); ++i) {
     const auto& link = model_.links[i];
@@ -139,6 +140,13 @@ nlohmann::json Skeleton::description() const {
                       {"mass", body.mass},
                       {"center_of_mass", list(body.center_of_mass)}});
   }
+  for (const Scene::Solid& solid : scene_->solids)
+    solids.push_back({{"frame", solid.frame},
+                      {"shape", Scene::Solid::kShapes[static_cast<std::size_t>(solid.shape)]},
+                      {"size", solid.size},
+                      {"radius", solid.radius},
+                      {"from", solid.from},
+                      {"to", solid.to}});
   for (std::size_t i = 0; i < joints_.size(); ++i)
     motors.push_back(
         {{"name", scene_->motors[i].name}, {"linear", scene_->motors[i].linear}, {"joint", joints_[i]}});
@@ -149,6 +157,7 @@ nlohmann::json Skeleton::description() const {
       {"bodies", bodies},
       {"motors", motors},
       {"closures", closures},
+      {"solids", solids},
       {"end_effector", {{"frame", scene_->end_effector.frame}, {"point", list(model_.end_effector_point)}}}};
 }
 

@@ -29,7 +29,8 @@ class Skeleton {
 
   /// What never moves, as the page reads it: frames (name, parent, joint's coordinate, prismatic, its origin
   /// at home), bodies (name, frame, mass, center_of_mass), motors (name, linear, joint: the frame at whose
-  /// joint its torque is shown), closures (see closures()), end_effector {frame, point}.
+  /// joint its torque is shown), closures (see closures()), solids (frame, shape, size,
+  /// radius, from, to: see Scene::Solid), end_effector {frame, point}.
   nlohmann::json description() const;
 
   /// Where a branch of the tree ends on another body: frame `leaf`'s origin stands still in frame `on`.

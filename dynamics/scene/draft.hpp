@@ -48,5 +48,6 @@ void read_constraints(const Mapping& root, SceneDraft& draft);
 void read_transforms(const Mapping& root, SceneDraft& draft);
 void read_bodies(const Mapping& root, SceneDraft& draft);
 void read_loads(const Mapping& root, SceneDraft& draft);
+void read_solids(const Mapping& root, SceneDraft& draft);
 
 }  // namespace mixloop

@@ -66,7 +66,7 @@ void read_singularities(const Mapping& root, SceneDraft& draft) {
 Scene load_scene(const NodePtr& document) {
   const Mapping root(document, "the scene",
                      {"name", "constants", "parameters", "motors", "coordinates", "constraints", "transforms",
-                      "bodies", "loads", "gravity", "end_effector", "home", "singularities"});
+                      "bodies", "loads", "gravity", "end_effector", "home", "singularities", "solids"});
   SceneDraft draft;
   Scene& scene = draft.scene;
   read_name(root, scene);
@@ -81,6 +81,7 @@ Scene load_scene(const NodePtr& document) {
   read_end_effector(root, draft);
   read_home(root, draft);
   read_singularities(root, draft);
+  read_solids(root, draft);
   check_physical(scene, scene.default_parameters());
   scene.warnings = physical_warnings(scene);
   scene.canonical = canonical_text(scene);

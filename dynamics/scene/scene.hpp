@@ -68,6 +68,18 @@ struct Scene {
     Formula stiffness, rest, damping;  ///< N m/rad, rad, N m s/rad; of a displacement N/m, m, N s/m
   };
 
+  /// What a viewer draws along with a frame: no part of the mechanism. m, in the frame's axes.
+  struct Solid {
+    enum class Shape { box, sphere, cylinder, capsule };
+    static constexpr std::array kShapes = {"box", "sphere", "cylinder", "capsule"};
+
+    int frame = 0;
+    Shape shape = Shape::box;
+    std::array<double, 3> size = {};           ///< a box's edges
+    double radius = 0;                         ///< of the others
+    std::array<double, 3> from = {}, to = {};  ///< the axis' ends; of a box and a sphere both are the centre
+  };
+
   struct EndEffector {
     int frame = 0;
     std::array<Formula, 3> point;
@@ -95,6 +107,7 @@ struct Scene {
   EndEffector end_effector;
   std::vector<double> home;  ///< psi that picks the branch of the inverse kinematics
   std::vector<Singularity> singularities;
+  std::vector<Solid> solids;
   std::vector<std::string> warnings;  ///< `file:line:column: what`, e.g. a triangle inequality
   std::string canonical;              ///< a text equal for equal mechanisms, to hash
 

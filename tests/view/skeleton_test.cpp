@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "dynamics/procedure/kinematics.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "view/source.hpp"
 
@@ -48,6 +49,22 @@ TEST(Skeleton, FindsWhereThePantographCloses) {
   EXPECT_NEAR((end - shoulder).norm(), 0.26, 1e-14);
   const double angle = std::acos((end - shoulder).dot(elbow - shoulder) / (0.26 * 0.3));
   EXPECT_NEAR(angle, 57 * std::numbers::pi / 180, 1e-13);  // round-off of angles of hundreds of degrees
+}
+
+// Link 2's two sides are drawn to the elbow, and to where link 6 ends on it.
+TEST(Skeleton, HandsOverTheSolidsThatTheSceneNames) {
+  Skeleton robot = of("mixed_loop_robot");
+  const auto solids = robot.description()["solids"];
+  ASSERT_EQ(solids.size(), 8u);
+  EXPECT_EQ(solids[2]["frame"], 2);
+  EXPECT_EQ(solids[2]["shape"], "capsule");
+  EXPECT_EQ(solids[2]["radius"], 0.02);
+  EXPECT_EQ(solids[2]["from"], nlohmann::json({-0.3, 0, 0}));
+  robot.place(std::vector<double>{3, -200, 150}, 0);
+  const auto& to = solids[3]["to"];
+  const Eigen::Vector3d end = at_point<double>(robot.frame(2), Eigen::Vector3d(to[0], to[1], to[2]));
+  EXPECT_LT((end - Eigen::Vector3d(robot.frame(6).col(3))).norm(), 1e-14);
+  EXPECT_TRUE(of("double_four_bar").description()["solids"].empty());
 }
 
 TEST(Skeleton, ClosesEveryLoopOfTheScenes) {

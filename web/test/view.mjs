@@ -176,6 +176,18 @@ async function standsOut(tab) {
   }
 }
 
+/** The first solid of the paper's link 2 goes from the shoulder (frame 1) to the elbow (frame 2). */
+async function solidsMove(tab) {
+  const { middle, bars, frames } = await tab.evaluate(() => {
+    const { drawing, pose: shown } = window.mixloop;
+    const solid = drawing.solids[2].children[0];
+    solid.updateWorldMatrix(true, false);
+    return { middle: solid.matrixWorld.elements.slice(12, 15), bars: drawing.links[2], frames: shown.frames };
+  });
+  assert.equal(bars, null, 'a solid is drawn in place of the skeleton');
+  middle.forEach((x, i) => assert.ok(Math.abs(x - (frames[7 + i] + frames[14 + i]) / 2) < 1e-12, `${x} of axis ${i}`));
+}
+
 async function log(tab) {
   const view = await viewing(`${folder}/first`, 0);
   await tab.goto(view.url);
@@ -193,6 +205,7 @@ async function log(tab) {
   await tab.keyboard.press('ArrowRight');
   await tab.waitForFunction(() => window.mixloop.pose.k === 1501);
   agree([await pose(tab)], `${folder}/first`);
+  await solidsMove(tab);
   assert.equal(await tab.evaluate(() => window.mixloop.plots.errors.data[0].length), 2001);
   for (const one of ['errors', 'torques'])
     for (const label of await tab.evaluate((name) => window.mixloop.plots[name].axes.map((axis) => axis.label), one)) assert.match(label, /\(.+\)$/);

@@ -5,6 +5,7 @@ import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js
 import { h, shown } from '../shared/dom.js';
 import { cssColour, onThemeChange } from '../shared/theme.js';
 import { Eye } from './eye.js';
+import { solidsOf } from './solids.js';
 import { Torque } from './torque.js';
 import { Trail } from './trail.js';
 
@@ -79,9 +80,11 @@ export class Drawing {
     const { reach, bar } = this;
     const size = 0.012 * reach;
     const mesh = (...words) => this.mesh(...words);
-    // A link is two bars: along its joint's axis (s), then to its frame (a).
+    this.solids = solidsOf(this.mechanism, this.material('solid'));
+    for (const group of this.solids) if (group) this.space.add(group);
+    // A link without a solid is two bars: along its joint's axis (s), then to its frame (a).
     this.links = this.mechanism.frames.map((frame, i) =>
-      i === 0 ? null : { parent: frame.parent, bars: [mesh(bar, 'link'), mesh(bar, 'link')], radius: size },
+      i === 0 || this.solids[i] ? null : { parent: frame.parent, bars: [mesh(bar, 'link'), mesh(bar, 'link')], radius: size },
     );
     const joint = new THREE.CylinderGeometry(1.9 * size, 1.9 * size, 4.5 * size, 24).rotateX(Math.PI / 2);
     const slide = new THREE.BoxGeometry(3.5 * size, 3.5 * size, 5 * size);
@@ -140,6 +143,7 @@ export class Drawing {
   recolour() {
     const colours = {
       link: cssColour('--link'),
+      solid: cssColour('--link'),
       joint: cssColour('--joint'),
       mass: cssColour('--mass'),
       hand: cssColour('--travelled'),
@@ -174,6 +178,10 @@ export class Drawing {
       const elbow = from.clone().addScaledVector(along, to.clone().sub(from).dot(along));
       stretch(link.bars[0], from, elbow, link.radius);
       stretch(link.bars[1], elbow, to, link.radius);
+    });
+    this.solids.forEach((group, i) => {
+      group?.position.copy(frames[i].at);
+      group?.quaternion.copy(frames[i].turn);
     });
     for (const joint of this.joints) {
       if (!joint) continue;

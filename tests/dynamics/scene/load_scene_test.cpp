@@ -42,6 +42,10 @@ end_effector: {frame: 2, point: [0, 0, 0], axes: [x, y]}
 home: {psi1: 120 deg}
 singularities:
   flat: sin(q1)
+solids:
+  - {frame: 1, shape: box, size: [1 cm, 2 cm, half], at: [0, 0, 5 cm]}
+  - {frame: 0, shape: sphere, radius: 4 cm}
+  - {frame: 2, shape: cylinder, radius: 6 cm, from: [0, -half, 0]}
 )";
 
 Scene loaded(const std::string& text, const std::string& file = "scene.yaml") {
@@ -92,6 +96,23 @@ TEST(LoadScene, ReadsEverySection) {
   EXPECT_DOUBLE_EQ(scene.home[0], 120 * std::numbers::pi / 180);
   EXPECT_EQ(scene.singularities[0].name, "flat");
   EXPECT_TRUE(scene.warnings.empty());
+  using Shape = Scene::Solid::Shape;
+  using Triple = std::array<double, 3>;
+  ASSERT_EQ(scene.solids.size(), 3U);
+  EXPECT_EQ(scene.solids[0].frame, 1);
+  EXPECT_EQ(scene.solids[0].shape, Shape::box);
+  EXPECT_EQ(scene.solids[0].size, (Triple{0.01, 0.02, 1}));
+  EXPECT_EQ(scene.solids[0].from, (Triple{0, 0, 0.05}));
+  EXPECT_EQ(scene.solids[0].to, scene.solids[0].from);
+  EXPECT_EQ(scene.solids[1].shape, Shape::sphere);
+  EXPECT_EQ(scene.solids[1].radius, 0.04);
+  EXPECT_EQ(scene.solids[2].shape, Shape::cylinder);
+  EXPECT_EQ(scene.solids[2].from, (Triple{0, -1, 0}));
+  EXPECT_EQ(scene.solids[2].to, Triple{});
+}
+
+TEST(LoadScene, IsTheSameMechanismWhateverItsSolids) {
+  EXPECT_EQ(loaded(with("radius: 4 cm", "radius: 5 cm")).canonical, loaded(kScene).canonical);
 }
 
 TEST(LoadScene, MostOfItMayBeLeftOut) {
@@ -233,6 +254,20 @@ INSTANTIATE_TEST_SUITE_P(
                  "in a body; did you mean 'center_of_mass'?"},
         BadInput{"UnknownElement", with("yy: 2", "@yx: 2"), "unknown_key", "unknown key 'yx' in an inertia"},
         BadInput{"UnknownKeyOfALoad", with("force:", "@forces:"), "unknown_key", "did you mean 'force'?"},
+        BadInput{"UnknownShape", with("shape: sphere", "shape: @spere"), "unknown_value",
+                 "the shape of a solid is 'spere'; did you mean 'sphere'?"},
+        BadInput{"KeyOfAnotherShape", with("size: [1 cm", "@radius: 1 cm, size: [1 cm"), "unknown_key",
+                 "unknown key 'radius' in a box"},
+        BadInput{"CylinderWithoutRadius", with("{frame: 2, shape: cylinder, radius: 6 cm,", "@{frame: 2, shape: cylinder,"),
+                 "missing_key", "a cylinder lacks the key 'radius'"},
+        BadInput{"SphereOfNothing", with("radius: 4 cm", "radius: @0"), "out_of_range",
+                 "the radius of a sphere is 0 m; expected more than 0"},
+        BadInput{"FlatBox", with("size: [1 cm, 2 cm, half]", "size: @[1 cm, 0, half]"), "out_of_range",
+                 "an edge of a box is 0 m"},
+        BadInput{"CylinderFromHereToHere", with("{frame: 2, shape: cylinder, radius: 6 cm, from: [0, -half, 0]}",
+                 "@{frame: 2, shape: cylinder, radius: 6 cm}"), "out_of_range", "expected 'from' and 'to' that differ"},
+        BadInput{"SolidOfAParameter", with("radius: 4 cm", "radius: @1 cm * bob / 1 kg"), "varying_number",
+                 "the radius of a sphere depends on no parameter"},
         BadInput{"UnknownMotorAtHome", with("psi1: 120 deg", "@psi2: 120 deg"), "unknown_key",
                  "in home; did you mean 'psi1'?"},
         BadInput{"MissingMotors", "@" + with("motors: [psi1]\n", ""), "missing_key",
