@@ -117,7 +117,7 @@ PlantSide PlantSession::side() {
     const bool blind = has(command_t::FLAG_WITHOUT_REFERENCE);
     hardware_.command({.offset = offset,
                        .command = command.seq,
-                       .ahead = blind ? Arrival::kBlind : extrapolated_by(command),
+                       .ahead = blind ? Arrival::kBlind : extrapolated_by(command.flags),
                        .afterwards = has(command_t::FLAG_AFTERWARDS)},
                       command.tau_commanded);
   };

@@ -148,9 +148,8 @@ inline std::int32_t extrapolation_flags(std::int64_t ahead) {
   if (ahead == 0) return 0;
   return command_t::FLAG_EXTRAPOLATED | static_cast<std::int32_t>(ahead << command_t::EXTRAPOLATED_SHIFT);
 }
-inline std::int64_t extrapolated_by(const command_t& command) {
-  const bool extrapolated = (command.flags & command_t::FLAG_EXTRAPOLATED) != 0;
-  return extrapolated ? command.flags >> command_t::EXTRAPOLATED_SHIFT : 0;
+inline std::int64_t extrapolated_by(std::int32_t flags) {
+  return (flags & command_t::FLAG_EXTRAPOLATED) != 0 ? flags >> command_t::EXTRAPOLATED_SHIFT : 0;
 }
 
 extern template class Inbox<state_t>;

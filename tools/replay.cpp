@@ -70,7 +70,7 @@ class Replay {
     const command_t& logged = commands_.message;
     if (logged.session != session_ || logged.config != config_ || logged.seq <= latest_) return;
     const auto state = state_of_.find(logged.seq);
-    const auto reference = reference_of_.find(logged.seq - extrapolated_by(logged));
+    const auto reference = reference_of_.find(logged.seq - extrapolated_by(logged.flags));
     const bool of_the_law = (logged.flags & command_t::FLAG_WITHOUT_REFERENCE) == 0;
     if (latest_ < 0 && state != state_of_.end()) side_.begin(state->second);
     latest_ = logged.seq;

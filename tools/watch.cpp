@@ -35,6 +35,11 @@ Heard heard(const Histogram& times) {
       .count = times.count(), .p50 = times.quantile(0.5), .p99 = times.quantile(0.99), .max = times.max()};
 }
 
+std::string why_safe(std::int32_t command_flags) {
+  if ((command_flags & command_t::FLAG_WITHOUT_REFERENCE) != 0) return ": it has no reference";
+  return (command_flags & command_t::FLAG_AFTERWARDS) != 0 ? ": it hears no newer state" : "";
+}
+
 // Types whose finiteness the wire doesn't know have nothing that is compared or drawn with it.
 template <class Message>
 bool sound(const Message& message) {
@@ -191,6 +196,8 @@ void Watch::on(const timing_t& timing, Instant) { timing_ = timing; }
 
 void Watch::on(const sim_control_t& control, Instant) {
   if (control.action == sim_control_t::ACTION_END) ending_ = ending_of(control.reason);
+  // The plant's own says which session comes next; an operator's is for the plant alone.
+  if (control.action == sim_control_t::ACTION_RESET && control.seq != 0) session_.go_over_to(control.seq);
 }
 
 void Watch::compare_motors(Tick& kept) {
@@ -247,7 +254,9 @@ std::vector<std::string> Watch::warnings() const {
   }
   say(command_flags_ & command_t::FLAG_JOINED_LATE, "the controller joined late");
   say(command_flags_ & command_t::FLAG_LIMITED, "the controller limits its torque");
-  say(command_flags_ & command_t::FLAG_SAFE, "the controller sends a safe command");
+  const auto ahead = extrapolated_by(command_flags_);
+  say(ahead > 0, "the planner is late: its reference is extrapolated, by " + std::to_string(ahead) + " ticks");
+  say(command_flags_ & command_t::FLAG_SAFE, "the controller sends a safe command" + why_safe(command_flags_));
   say(command_flags_ & command_t::FLAG_STOPPED, "the controller has stopped");
   say(truth_flags_ & truth_t::FLAG_SATURATED, "a motor's torque is at its limit");
   say(truth_flags_ & truth_t::FLAG_FAULT, "an injected fault is active");

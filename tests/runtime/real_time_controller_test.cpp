@@ -71,14 +71,14 @@ TEST_F(RealTimeController, has_a_missing_reference_extrapolated_for_some_ticks) 
     send_state(tick);
     const command_t c = command(tick);
     EXPECT_NE(c.flags & command_t::FLAG_EXTRAPOLATED, 0);
-    EXPECT_EQ(extrapolated_by(c), tick);
+    EXPECT_EQ(extrapolated_by(c.flags), tick);
     EXPECT_EQ(c.tau_commanded[0], 5);
     EXPECT_EQ(c.tau_commanded[2], static_cast<double>(tick));
   }
   send_state(6);  // one tick more than is forgiven
   const command_t far = command(6);
   EXPECT_EQ(far.flags, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_WITHOUT_REFERENCE);
-  EXPECT_EQ(extrapolated_by(far), 0);
+  EXPECT_EQ(extrapolated_by(far.flags), 0);
   EXPECT_EQ(far.tau_commanded[0], -1);
   script_.send_reference(7, 8);
   send_state(7);

@@ -170,6 +170,39 @@ TEST(Watch, HoldsItselfToOneRun) {
   EXPECT_EQ(view.channels[0].lost, 0);
 }
 
+TEST(Watch, FollowsThePlantsResetAtOnce) {
+  Script script;
+  script.state(10, {0, 0, 0});
+  auto reset = script.message<sim_control_t>(0);
+  reset.action = sim_control_t::ACTION_RESET;
+  script.send(Channel::sim_control, reset);  // an operator's, who cannot know what comes next
+  script.state(11, {0, 0, 0});
+  EXPECT_EQ(script.watch.view(script.at).tick, 11);
+  reset.seq = kSession + 1;
+  script.send(Channel::sim_control, reset);
+  script.state(0, {0, 0, 0}, kSession + 1);
+  const WatchView view = script.watch.view(script.at);
+  EXPECT_EQ(view.session, kSession + 1);
+  EXPECT_EQ(view.tick, 0);
+  EXPECT_EQ(view.other_sessions, 0);
+}
+
+TEST(Watch, SaysWhyTheControllerGoesByNoReference) {
+  Script script;
+  script.state(0, {0, 0, 0});
+  auto command = script.message<command_t>(0);
+  const auto warning = [&](std::int32_t flags) {
+    command.flags = flags;
+    script.send(Channel::command, command);
+    return script.watch.view(script.at).warnings;
+  };
+  constexpr std::int32_t kSafe = command_t::FLAG_SAFE;
+  EXPECT_THAT(warning(extrapolation_flags(7)), ElementsAre(HasSubstr("extrapolated, by 7 ticks")));
+  EXPECT_THAT(warning(kSafe | command_t::FLAG_WITHOUT_REFERENCE), ElementsAre(HasSubstr("no reference")));
+  EXPECT_THAT(warning(kSafe | command_t::FLAG_AFTERWARDS), ElementsAre(HasSubstr("no newer state")));
+  EXPECT_THAT(warning(0), IsEmpty());
+}
+
 TEST(Watch, CountsWhatItCannotTake) {
   Script script;
   script.state(0, {0, 0, 0});
