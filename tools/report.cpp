@@ -6,8 +6,8 @@
 
 #include "report/page.hpp"
 #include "tools/children.hpp"
-#include "tools/command_line.hpp"
 #include "tools/commands.hpp"
+#include "tools/log_options.hpp"
 #include "tools/web_page.hpp"
 
 namespace mixloop {
@@ -17,10 +17,9 @@ constexpr std::size_t kMostBytes = 9'500'000;
 constexpr std::size_t kMostBuckets = std::size_t{1} << 15;  // a curve, of all runs together
 constexpr std::size_t kMostRuns = 8;  // as many as can be told apart
 
-struct Options : CommonOptions {
+struct Options : LogOptions {
   std::vector<std::string> paths;
-  std::string out, experiment;
-  ReadOptions read;
+  std::string out;
 };
 
 std::string default_out(const std::filesystem::path& first) {
@@ -42,10 +41,7 @@ std::vector<ReportedRun> read_runs(Options& options) {
     throw InputError("too_many", {options.paths[kMostRuns]},
                      fmt::format("{} results; expected at most {}, which can be told apart", options.paths.size(),
                                  kMostRuns));
-  if (!options.experiment.empty())
-    options.read.experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
-  else if (!options.sets.empty())
-    throw InputError("command_line", {"--set"}, "overrides an experiment's entries; expected --experiment too");
+  options.take_experiment();
   std::size_t capacity = kMostBuckets;
   while (capacity * options.paths.size() > kMostBuckets) capacity /= 2;
   std::vector<ReportedRun> runs;
@@ -91,12 +87,7 @@ void add_report_command(CLI::App& app, int& status) {
       ->type_name("RESULT_DIR|LOG");
   command->add_option("--out", options->out, "the page; report.html in the first folder, or LOG's name with .html")
       ->type_name("FILE");
-  command
-      ->add_option("--experiment", options->experiment,
-                   "what a log was made with, where no inputs.json stands beside it")
-      ->type_name("EXPERIMENT");
-  command->add_option("--session", options->read.session, "which run of a log; the longest when omitted")
-      ->type_name("ID");
+  add_log_options(*command, *options);
   command->add_option("--channel-prefix", options->read.prefix, "of a log's channels, " + options->read.prefix)
       ->type_name("PREFIX");
   add_common_options(*command, *options);

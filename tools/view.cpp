@@ -3,6 +3,7 @@
 
 #include "tools/bus_line.hpp"
 #include "tools/commands.hpp"
+#include "tools/log_options.hpp"
 #include "tools/web_page.hpp"
 #include "view/bus_source.hpp"
 #include "view/log_source.hpp"
@@ -11,10 +12,9 @@
 namespace mixloop {
 namespace {
 
-struct Options : CommonOptions {
-  std::string what, experiment;
+struct Options : LogOptions {
+  std::string what;
   BusOptions bus;
-  ReadOptions read;
   ServerOptions server;
 };
 
@@ -32,11 +32,7 @@ std::unique_ptr<Source> source_of(Options& options) {
     return std::make_unique<BusSource>(options.bus, experiment, config_of(experiment));
   }
   options.read.prefix = options.bus.prefix;
-  if (!options.experiment.empty())
-    options.read.experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
-  else if (!options.sets.empty())
-    throw InputError("command_line", {"--set"},
-                     "overrides an experiment's entries; expected --experiment too");
+  options.take_experiment();
   return std::make_unique<LogSource>(options.what, options.read);
 }
 
@@ -71,12 +67,7 @@ void add_view_command(CLI::App& app, int& status) {
   command->add_option("--fps", options->server.frames_per_second, "poses a second to a browser at most, 60")
       ->check(CLI::Range(1.0, 240.0))
       ->type_name("N");
-  command
-      ->add_option("--experiment", options->experiment,
-                   "what a log was made with, where no inputs.json stands beside it")
-      ->type_name("EXPERIMENT");
-  command->add_option("--session", options->read.session, "which run of a log; the longest when omitted")
-      ->type_name("ID");
+  add_log_options(*command, *options);
   add_bus_options(*command, options->bus);
   add_common_options(*command, *options);
   command->footer(
