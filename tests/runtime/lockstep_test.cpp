@@ -11,6 +11,7 @@
 #include "runtime/bus.hpp"
 #include "tests/runtime/toy_loop.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/bad_network.hpp"
 #include "tests/support/command.hpp"
 
 namespace mixloop {
@@ -94,10 +95,7 @@ TEST_P(BadNetwork, loses_doubles_and_reorders_datagrams_without_changing_a_comma
   std::vector<Started> children;
   int seed = 100 * GetParam();
   for (const std::string& role : kRoles)
-    children.push_back(
-        start(role, kTicks,
-              {"LD_PRELOAD=" MIXLOOP_LOSSY_LIBRARY, "ASAN_OPTIONS=verify_asan_link_order=0",
-               "MIXLOOP_LOSSY=seed=" + std::to_string(++seed) + ",lose=0.05,double=0.02,reorder=0.02"}));
+    children.push_back(start(role, kTicks, bad_network(++seed)));
   const auto reports = finish_all(children, kRoles);
   EXPECT_GT(reports["plant"].value("resent", 0), 20) << "the network wasn't bad";
 }

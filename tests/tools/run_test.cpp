@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 
+#include "tests/support/bad_network.hpp"
 #include "tests/support/command.hpp"
 #include "tests/tools/heard.hpp"
 #include "tests/tools/paths.hpp"
@@ -89,9 +90,7 @@ TEST(Run, GivesTheSimulatedBytesUnderLoad) {
 TEST(Run, GivesTheSimulatedBytesOnABadNetwork) {
   for (int seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
-    Command command(run_line(),
-                    {"LD_PRELOAD=" MIXLOOP_LOSSY_LIBRARY, "ASAN_OPTIONS=verify_asan_link_order=0",
-                     "MIXLOOP_LOSSY=seed=" + std::to_string(seed) + ",lose=0.05,double=0.02,reorder=0.02"});
+    Command command(run_line(), bad_network(seed));
     expect_the_simulated_bytes(command);
     EXPECT_GT(command.json()["resent"], 0);
   }
