@@ -25,7 +25,7 @@ attr_t attributes(Style style, bool colours) {
     case Style::good:
       return colours ? COLOR_PAIR(kGood) : A_NORMAL;
     case Style::warning:
-      return A_BOLD | (colours ? COLOR_PAIR(kWarning) : A_REVERSE);
+      return colours ? COLOR_PAIR(kWarning) : A_BOLD | A_REVERSE;
     case Style::plain:
       break;
   }
@@ -56,11 +56,12 @@ Screen::Screen(bool colours) : terminal_(nullptr), colours_(false) {
   curs_set(0);
   colours_ = colours && has_colors();
   if (!colours_) return;
-  // Blue and yellow: told apart by eyes that don't tell red from green.
+  // Blue and yellow: told apart by eyes that don't tell red from green. As a ground under black, for as letters
+  // neither stands out on a white terminal.
   start_color();
   use_default_colors();
-  init_pair(kGood, COLOR_CYAN, -1);
-  init_pair(kWarning, COLOR_YELLOW, -1);
+  init_pair(kGood, COLOR_BLACK, COLOR_CYAN);
+  init_pair(kWarning, COLOR_BLACK, COLOR_YELLOW);
 }
 
 Screen::~Screen() {
