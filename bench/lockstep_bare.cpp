@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "runtime/clock.hpp"
-#include "runtime/histogram.hpp"
-#include "runtime/real_time_rights.hpp"
-#include "runtime/wire.hpp"
+#include "runtime/clock/clock.hpp"
+#include "runtime/clock/histogram.hpp"
+#include "runtime/machine/real_time_rights.hpp"
+#include "runtime/bus/wire.hpp"
 
 namespace {
 

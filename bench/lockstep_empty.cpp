@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <functional>
 
-#include "runtime/controller_peer.hpp"
-#include "runtime/lockstep_plant.hpp"
-#include "runtime/planner_peer.hpp"
+#include "runtime/protocol/controller_peer.hpp"
+#include "runtime/protocol/lockstep_plant.hpp"
+#include "runtime/protocol/planner_peer.hpp"
 
 namespace {
 

@@ -5,10 +5,10 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include "runtime/clock.hpp"
-#include "runtime/histogram.hpp"
-#include "runtime/session.hpp"
-#include "runtime/wire.hpp"
+#include "runtime/clock/clock.hpp"
+#include "runtime/clock/histogram.hpp"
+#include "runtime/protocol/session.hpp"
+#include "runtime/bus/wire.hpp"
 
 namespace {
 

@@ -191,20 +191,18 @@ DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan
                        plan.ticks());
 }
 
-CommonGround common_ground(const Experiment& experiment) {
-  CommonGround ground;
-  ground.rate = fmt::format("{:a}", experiment.rate_hz);
-  ground.mechanism = experiment.scene->canonical;
+std::array<std::string, 4> common_ground(const Experiment& experiment) {
+  std::string path, parameters;
   for (const auto& via : experiment.path.vias)
-    ground.path += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
+    path += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
                                via.duration, via.dwell);
-  ground.path +=
+  path +=
       fmt::format("repeat {} approach {:a}", experiment.path.repeat, experiment.path.approach.value_or(0));
-  for (const double limit : experiment.limits.velocity) ground.path += fmt::format(" {:a}", limit);
-  ground.path += " from";
-  for (const double psi : experiment.plant.initial_psi) ground.path += fmt::format(" {:a}", psi);
-  for (const double value : experiment.parameters) ground.parameters += fmt::format("{:a} ", value);
-  return ground;
+  for (const double limit : experiment.limits.velocity) path += fmt::format(" {:a}", limit);
+  path += " from";
+  for (const double psi : experiment.plant.initial_psi) path += fmt::format(" {:a}", psi);
+  for (const double value : experiment.parameters) parameters += fmt::format("{:a} ", value);
+  return {fmt::format("{:a}", experiment.rate_hz), experiment.scene->canonical, path, parameters};
 }
 
 }  // namespace mixloop

@@ -66,10 +66,7 @@ DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan
 Experiment with_integrator_settled(Experiment experiment, const Plan& plan);
 
 /// What plant, controller and planner must have in common, a text each to hash: rate, mechanism, path and
-/// shared parameters.
-struct CommonGround {
-  std::string rate, mechanism, path, parameters;
-};
-CommonGround common_ground(const Experiment& experiment);
+/// shared parameters (the order of ConfigHash).
+std::array<std::string, 4> common_ground(const Experiment& experiment);
 
 }  // namespace mixloop

@@ -8,7 +8,7 @@
 
 #include "mixloop/timing_t.hpp"
 #include "notation/errors.hpp"
-#include "runtime/log_reader.hpp"
+#include "runtime/bus/log_reader.hpp"
 
 namespace mixloop {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "report/position_error.hpp"
-#include "runtime/config_hash.hpp"
+#include "runtime/protocol/config_hash.hpp"
 
 namespace mixloop {
 namespace {

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "loop/experiment.hpp"
-#include "runtime/bus.hpp"
+#include "runtime/bus/bus.hpp"
 #include "view/source.hpp"
 
 namespace mixloop {

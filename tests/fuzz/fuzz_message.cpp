@@ -2,7 +2,7 @@
 // A datagram of the type MIXLOOP_MESSAGE, for a scene of as many motors as its first byte says.
 #include <algorithm>
 
-#include "runtime/wire.hpp"
+#include "runtime/bus/wire.hpp"
 #include "tests/fuzz/check.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

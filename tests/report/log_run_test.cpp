@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "runtime/wire.hpp"
+#include "runtime/bus/wire.hpp"
 #include "tests/support/bad_input.hpp"
 #include "tests/support/command.hpp"
 

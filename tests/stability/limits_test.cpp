@@ -11,7 +11,7 @@ namespace {
 
 Experiment experiment(const std::string& name, const std::vector<Override>& overrides = {}) {
   Experiment loaded =
-      load_experiment(std::filesystem::path(MIXLOOP_SOURCE_DIR "/experiments/" + name + ".yaml"), overrides);
+      load_experiment(std::filesystem::path(MIXLOOP_SOURCE "/experiments/" + name + ".yaml"), overrides);
   loaded.evaluation = Evaluation::interpreter;
   return loaded;
 }

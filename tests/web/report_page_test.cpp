@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.hpp"
-#include "tests/tools/paths.hpp"
+#include "tests/support/paths.hpp"
 
 namespace mixloop {
 namespace {

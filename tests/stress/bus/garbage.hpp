@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/wire.hpp"
+#include "runtime/bus/wire.hpp"
 
 namespace mixloop::stress {
 

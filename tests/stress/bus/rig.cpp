@@ -9,7 +9,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "runtime/plant_time.hpp"
+#include "runtime/clock/plant_time.hpp"
 
 namespace mixloop::stress {
 namespace {

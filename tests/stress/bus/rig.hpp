@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/bus.hpp"
-#include "runtime/clock.hpp"
-#include "runtime/wire.hpp"
+#include "runtime/bus/bus.hpp"
+#include "runtime/clock/clock.hpp"
+#include "runtime/bus/wire.hpp"
 #include "tests/support/command.hpp"
 
 namespace mixloop::stress {

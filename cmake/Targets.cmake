@@ -1,0 +1,45 @@
+# One target a folder, mixloop::ROOM; headers are included from the repository's root.
+include_directories(${PROJECT_SOURCE_DIR})
+
+# Headers that many files include and nobody here changes, compiled once for all targets of one kind.
+#   mixloop_precompiled(KIND header...)
+function(mixloop_precompiled kind)
+  set(source ${CMAKE_BINARY_DIR}/precompiled/${kind}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// Nothing but precompiled headers.\n")
+  add_library(mixloop_precompiled_${kind} OBJECT ${source})
+  target_link_libraries(
+    mixloop_precompiled_${kind} PRIVATE mixloop_options mixloop_${kind} Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json
+                                        CLI11::CLI11)
+  target_precompile_headers(mixloop_precompiled_${kind} PRIVATE ${ARGN})
+endfunction()
+
+# How a target of this kind is compiled: its warnings, its optimisation and its precompiled headers.
+function(mixloop_compiled_as kind target)
+  target_link_libraries(${target} PRIVATE mixloop_options mixloop_${kind})
+  target_precompile_headers(${target} REUSE_FROM mixloop_precompiled_${kind})
+endfunction()
+
+# mixloop_room(ROOM KIND SOURCES file... [PUBLIC library...] [PRIVATE library...])
+function(mixloop_room room kind)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(mixloop_${room} STATIC ${arg_SOURCES})
+  add_library(mixloop::${room} ALIAS mixloop_${room})
+  target_link_libraries(mixloop_${room} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  mixloop_compiled_as(${kind} mixloop_${room})
+endfunction()
+
+# What is compiled alike. Numbers: what is evaluated in the loop, or a thousand times before it. People: what waits
+# for people and other processes, where optimising costs more time than it saves. Tests: beside those, GoogleTest.
+add_library(mixloop_numbers INTERFACE)
+add_library(mixloop_people INTERFACE)
+add_library(mixloop_tests INTERFACE)
+target_compile_options(mixloop_people INTERFACE $<$<CONFIG:Release>:-O1>)
+target_compile_options(mixloop_tests INTERFACE $<$<CONFIG:Release>:-O1>)
+
+set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory>
+    <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
+mixloop_precompiled(numbers ${standard} <Eigen/Dense> <fmt/format.h>)
+mixloop_precompiled(people ${standard} <Eigen/Core> <fmt/format.h> <nlohmann/json.hpp> <CLI/CLI.hpp>)
+if(MIXLOOP_TESTS)
+  mixloop_precompiled(tests ${standard} <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <gmock/gmock.h> <gtest/gtest.h>)
+endif()

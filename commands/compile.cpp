@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include "dynamics/evaluator.hpp"
+#include "dynamics/program/firmware.hpp"
+#include "dynamics/scene/load_scene.hpp"
+#include "processes/command_line.hpp"
+#include "commands/commands.hpp"
+
+namespace mixloop {
+namespace {
+
+struct Options : CommonOptions {
+  std::string scene, emit, file;
+  std::vector<std::string> purposes;
+  bool c_library = false;
+};
+
+std::vector<Purpose> purposes_of(const Options& options) {
+  std::vector<Purpose> purposes;
+  for (Purpose purpose : kPurposes)
+    if (options.purposes.empty() || std::find(options.purposes.begin(), options.purposes.end(),
+                                              name_of(purpose)) != options.purposes.end())
+      purposes.push_back(purpose);
+  return purposes;
+}
+
+int write_source(const Options& options, const std::shared_ptr<const Scene>& scene) {
+  const std::string source = firmware_source(
+      scene, purposes_of(options), options.c_library ? Trigonometry::c_library : Trigonometry::inlined);
+  if (options.file.empty()) {
+    fmt::print("{}", source);
+    return 0;
+  }
+  std::ofstream file(options.file);
+  file << source;
+  file.close();
+  if (!file) throw InputError("cannot_write", {options.file, 0, 0}, "cannot write the source");
+  if (options.json) print_json({{"file", options.file}, {"bytes", source.size()}});
+  return 0;
+}
+
+int build(const Options& options, const std::shared_ptr<const Scene>& scene) {
+  nlohmann::json built;
+  for (Purpose purpose : purposes_of(options)) {
+    const auto start = std::chrono::steady_clock::now();
+    const Dynamics dynamics(scene, scene->default_parameters(), Evaluation::machine_code, {purpose});
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    built[std::string(name_of(purpose))] = {{"evaluation", name_of(dynamics.evaluation())},
+                                            {"seconds", seconds}};
+    if (!options.json)
+      fmt::print("{:<26}{:<14}{:8.1f} ms\n", name_of(purpose), name_of(dynamics.evaluation()), 1e3 * seconds);
+  }
+  if (options.json) print_json(built);
+  return 0;
+}
+
+int run(const Options& options) {
+  const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
+  return options.emit.empty() ? build(options, scene) : write_source(options, scene);
+}
+
+}  // namespace
+
+void add_compile_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  std::vector<std::string> names;
+  for (Purpose purpose : kPurposes) names.emplace_back(name_of(purpose));
+  auto* command = app.add_subcommand(
+      "compile", "a scene's programs as machine code (kept in the cache), or as C++ source");
+  command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
+  command->add_option("--emit", options->emit, "write the source instead")->check(CLI::IsMember({"cpp"}));
+  command->add_option("--purpose", options->purposes, "only these; all when omitted")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names));
+  command->add_option("--file", options->file, "where the source goes; standard output when omitted")
+      ->type_name("FILE");
+  command->add_flag("--c-library", options->c_library, "sine and cosine from <math.h>, not inlined");
+  add_common_options(*command, *options);
+  command->footer(
+      "The source is C++17 with a C interface and needs nothing but <math.h>.\n"
+      "Example:\n"
+      "  mixloop compile scenes/mixed_loop_robot.yaml --emit cpp --purpose forward_dynamics,mass_times "
+      "--file robot.cpp");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

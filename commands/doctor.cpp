@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "loop/result.hpp"
+#include "runtime/machine/fitness.hpp"
+#include "processes/bus_line.hpp"
+#include "commands/commands.hpp"
+
+namespace mixloop {
+namespace {
+
+struct Options {
+  BusOptions bus;
+  bool json = false;
+  double seconds = 2;
+};
+
+const char* name_of(Fitness verdict) {
+  return verdict == Fitness::good ? "good" : verdict == Fitness::fair ? "fair" : "BAD";
+}
+
+int run(const Options& options) {
+  const nanoseconds span(static_cast<std::int64_t>(options.seconds * 1e9));
+  const std::vector<std::function<Finding()>> checks = {
+      [&] { return multicast_finding(options.bus); },
+      receive_buffer_finding,
+      priority_finding,
+      locked_memory_finding,
+      governor_finding,
+      idle_latency_finding,
+      [&] { return wake_up_finding(span); },
+      [&] { return round_trip_finding(options.bus, span); },
+      [&] { return publishers_finding(options.bus, std::min<nanoseconds>(span, std::chrono::seconds(1))); },
+  };
+  bool fit = true;
+  auto findings = nlohmann::json::array();
+  for (const auto& check : checks) {
+    const Finding finding = check();
+    fit = fit && finding.verdict != Fitness::bad;
+    findings.push_back({{"what", finding.what},
+                        {"value", finding.value},
+                        {"verdict", finding.verdict == Fitness::bad ? "bad" : name_of(finding.verdict)},
+                        {"mend", finding.mend}});
+    if (options.json) continue;
+    fmt::print("{:<5} {:<25} {}\n", name_of(finding.verdict), finding.what, finding.value);
+    if (!finding.mend.empty()) fmt::print("      {:<25} {}\n", "", finding.mend);
+    std::fflush(stdout);
+  }
+  if (options.json)
+    print_json({{"fit", fit}, {"findings", findings}});
+  else
+    fmt::print("{}\n", fit ? "1 kHz will hold here." : "1 kHz will NOT hold here: see what is BAD.");
+  return fit ? kHeld : kMissed;
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("doctor", "is this machine fit for 1 kHz; each 'no' with what mends it");
+  add_bus_options(*command, options->bus);
+  command->add_option("--seconds", options->seconds, "to measure wake-ups and round trips for, 2 each")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->type_name("S");
+  command->add_flag("--json", options->json, "print one JSON object on stdout and nothing else");
+  command->footer(
+      "good: as it should be. fair: 1 kHz holds with less margin than there could be. BAD: it won't hold, "
+      "exit "
+      "status 1.\n"
+      "Measure on the machine as it will be used: other work shows.");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "dynamics/procedure/procedure.hpp"
+#include "loop/experiment.hpp"
+#include "notation/value.hpp"
+#include "processes/command_line.hpp"
+#include "commands/commands.hpp"
+
+namespace mixloop {
+namespace {
+
+struct Options : CommonOptions {
+  std::string scene, psi, psid, tau;
+  std::string t = "0";
+};
+
+/// `1,2,3` or `57 deg, 0, 10 cm`; all zero when nothing was said.
+std::vector<double> state_values(const std::string& text, const std::string& option, const Scene& scene) {
+  if (text.empty()) return std::vector<double>(scene.motors.size(), 0.0);
+  return numbers_of(parse_document("[" + text + "]", option), kOpen, scene.motors.size(), option);
+}
+
+template <class Derived>
+nlohmann::json rows(const Eigen::MatrixBase<Derived>& matrix) {
+  auto json = nlohmann::json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    auto row = nlohmann::json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    json.push_back(std::move(row));
+  }
+  return json;
+}
+
+template <class Derived>
+nlohmann::json list(const Eigen::MatrixBase<Derived>& vector) {
+  return std::vector<double>(vector.begin(), vector.end());
+}
+
+nlohmann::json evaluated(const Options& options, const std::shared_ptr<const Scene>& scene) {
+  const auto parameters = scene->default_parameters();
+  const auto model = make_model<double>(scene, std::span<const double>(parameters));
+  Workspace<double> ws(model);
+  using In = std::span<const double>;
+  const auto psi = state_values(options.psi, "--psi", *scene),
+             psid = state_values(options.psid, "--psid", *scene),
+             tau = state_values(options.tau, "--tau", *scene);
+  const double t = number_of(*parse_document(options.t, "--t"), kTime, "--t");
+
+  nlohmann::json json;
+  const Vector psidd = forward_dynamics<double>(model, In(psi), In(psid), In(tau), t, ws);
+  json["psidd"] = list(psidd);
+  json["mass_matrix"] = rows(mass_matrix<double>(model, In(psi), t, ws));
+  json["bias"] = list(bias<double>(model, In(psi), In(psid), t, ws));
+  json["q"] = list(ws.q);
+  json["constraint_jacobian"] = rows(ws.C);
+  const auto& hand = end_effector<double>(model, In(psi), In(psid), span_of(psidd), t, ws);
+  json["end_effector"] = {{"position", list(hand.position)},
+                          {"velocity", list(hand.velocity)},
+                          {"acceleration", list(hand.acceleration)},
+                          {"jacobian", rows(hand.jacobian)}};
+  return json;
+}
+
+void print_lines(const nlohmann::json& value, const std::string& name) {
+  const bool matrix = value.is_array() && !value.empty() && value[0].is_array();
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) print_lines(inner, name.empty() ? key : name + "." + key);
+  } else if (matrix) {
+    fmt::print("{}\n", name);
+    for (const auto& row : value) fmt::print("  {: .15e}\n", fmt::join(row.get<std::vector<double>>(), "  "));
+  } else {
+    fmt::print("{}\n  {: .15e}\n", name, fmt::join(value.get<std::vector<double>>(), "  "));
+  }
+}
+
+int run(const Options& options) {
+  const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
+  const auto json = evaluated(options, scene);
+  if (options.json) {
+    print_json(json);
+  } else {
+    for (const auto& warning : scene->warnings) fmt::print(stderr, "warning: {}\n", warning);
+    print_lines(json, "");
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_dynamics_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("dynamics", "one evaluation of a scene's equations of motion, M psi'' + h = tau");
+  command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
+  command
+      ->add_option("--psi", options->psi, "motor positions, e.g. 1,2,3 or '57 deg, 0, 0'; zero when omitted")
+      ->type_name("A,B,...");
+  command->add_option("--psid", options->psid, "motor velocities, rad/s or m/s")->type_name("A,B,...");
+  command->add_option("--tau", options->tau, "motor torques or forces, N m or N")->type_name("A,B,...");
+  command->add_option("--t", options->t, "time, s, for constraints and loads that depend on it")
+      ->type_name("TIME");
+  add_common_options(*command, *options);
+  command->footer(
+      "Prints Q, C, M, h, psi'' and the end effector in SI, matrices row by row.\n"
+      "Example:\n"
+      "  mixloop dynamics scenes/mixed_loop_robot.yaml --psi 1,2,3 --psid 0.1,0.2,0.3 --set "
+      "parameters.payload='3 kg'");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

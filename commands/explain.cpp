@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/program/explanation.hpp"
+
+#include <fmt/format.h>
+
+#include "dynamics/scene/load_scene.hpp"
+#include "processes/command_line.hpp"
+#include "commands/commands.hpp"
+
+namespace mixloop {
+namespace {
+
+struct Options : CommonOptions {
+  std::string scene;
+};
+
+nlohmann::json counts(const OperationCount& count) {
+  return {{"add", count.add},       {"mul", count.mul},     {"div", count.div},      {"sqrt", count.sqrt},
+          {"sincos", count.sincos}, {"other", count.other}, {"flops", count.flops()}};
+}
+
+const char* served_by(const Explanation::Quantity& quantity) {
+  return quantity.compiled ? "machine_code" : "interpreter";
+}
+
+nlohmann::json as_json(const Explanation& explanation) {
+  nlohmann::json json;
+  for (const auto& quantity : explanation.quantities)
+    json["quantities"][std::string(name_of(quantity.purpose))] = {{"literal", counts(quantity.literal)},
+                                                                  {"pruned", counts(quantity.run)},
+                                                                  {"set_up", counts(quantity.set_up)},
+                                                                  {"tracing", name_of(quantity.tracing)},
+                                                                  {"evaluation", served_by(quantity)}};
+  json["reasons"] = explanation.reasons;
+  return json;
+}
+
+void print_table(const Explanation& explanation) {
+  fmt::print("{:<26}{:>18}{:>18}{:>8}   {:<13}{}\n", "operations + sincos", "literal", "pruned", "", "traced",
+             "runs as");
+  for (const auto& quantity : explanation.quantities) {
+    const auto text = [](const OperationCount& count) {
+      return fmt::format("{} + {}", count.flops(), count.sincos);
+    };
+    fmt::print("{:<26}{:>18}{:>18}{:>7.1f}x   {:<13}{}\n", name_of(quantity.purpose), text(quantity.literal),
+               text(quantity.run),
+               static_cast<double>(quantity.literal.flops()) /
+                   static_cast<double>(std::max<std::size_t>(1, quantity.run.flops())),
+               name_of(quantity.tracing), served_by(quantity));
+  }
+  fmt::print("\nForward dynamics: {}\n  instead of {}.\n\nWhy:\n", explanation.quantities[0].run.text(),
+             explanation.quantities[0].literal.text());
+  for (const auto& reason : explanation.reasons) fmt::print("- {}\n", reason);
+}
+
+int run(const Options& options) {
+  const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
+  const Explanation explanation = explain(scene);
+  if (options.json)
+    print_json(as_json(explanation));
+  else
+    print_table(explanation);
+  return 0;
+}
+
+}  // namespace
+
+void add_explain_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("explain", "what a scene's programs skip, why, and what that saves");
+  command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
+  add_common_options(*command, *options);
+  command->footer("Example:\n  mixloop explain scenes/mixed_loop_robot.yaml");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "commands/junit.hpp"
+
+#include <tinyxml2.h>
+
+#include "notation/errors.hpp"
+
+namespace mixloop {
+
+void write_junit(const std::string& file, const nlohmann::json& results) {
+  tinyxml2::XMLDocument document;
+  document.InsertFirstChild(document.NewDeclaration());
+  auto* suite = document.NewElement("testsuite");
+  document.InsertEndChild(suite);
+  suite->SetAttribute("name", "mixloop track");
+  int failures = 0, errors = 0;
+  for (const auto& result : results) {
+    auto* test = suite->InsertNewChildElement("testcase");
+    test->SetAttribute("classname", "mixloop.track");
+    test->SetAttribute("name", result.at("experiment").get<std::string>().c_str());
+    test->SetAttribute("time", result.value("wall_time", 0.0));
+    if (result.contains("error")) {
+      ++errors;
+      auto* element = test->InsertNewChildElement("error");
+      element->SetAttribute("type", result["error"].value("code", "").c_str());
+      element->SetAttribute("message", result["error"].value("message", "").c_str());
+    } else if (result.value("verdict", "") != "held") {
+      ++failures;
+      auto* element = test->InsertNewChildElement("failure");
+      std::string message;
+      for (const auto& line : result.value("missed", nlohmann::json::array()))
+        message += (message.empty() ? "" : "; ") + line.get<std::string>();
+      element->SetAttribute("message", message.c_str());
+    }
+  }
+  suite->SetAttribute("tests", static_cast<int>(results.size()));
+  suite->SetAttribute("failures", failures);
+  suite->SetAttribute("errors", errors);
+  if (document.SaveFile(file.c_str()) != tinyxml2::XML_SUCCESS)
+    throw RunFault("cannot_write", "cannot write " + file);
+}
+
+}  // namespace mixloop

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "commands/launched.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <optional>
+
+#include "loop/inputs.hpp"
+#include "loop/keep.hpp"
+#include "loop/result.hpp"
+#include "runtime/clock/clock.hpp"
+#include "runtime/bus/log_writer.hpp"
+#include "runtime/bus/multicast_route.hpp"
+#include "runtime/protocol/session.hpp"
+#include "commands/children.hpp"
+#include "commands/progress.hpp"
+#include "commands/warnings.hpp"
+
+namespace mixloop {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How long a process may take to leave once the plant has ended or a stop was ordered. Keeping what was
+/// recorded takes as long as it takes.
+constexpr auto kGrace = 3s;
+
+/// A run of the processes: their pipes, their ends, and what the plant reports.
+class Run {
+ public:
+  Run(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
+      const std::function<void(const nlohmann::json&)>& at_end, std::int64_t ticks)
+      : launch_(launch), stop_(stop), at_end_(at_end), progress_(experiment.name, ticks, experiment.rate_hz) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw RunFault("cannot_start", std::string("no pipe: ") + std::strerror(errno));
+    report_ = ends[0];
+    fcntl(report_, F_SETFL, O_NONBLOCK);
+    const std::int64_t session = draw_session();
+    children_.reserve(launch.order.size());
+    for (const auto& name : launch.order)
+      if (!absent(name))
+        children_.emplace_back(name, command(name, session, ends[1]), name == "plant" ? ends[1] : -1);
+    close(ends[1]);
+  }
+  ~Run() { close(report_); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  nlohmann::json wait() {
+    while (
+        std::any_of(children_.begin(), children_.end(), [](const Child& child) { return child.running(); })) {
+      wait_for_news();
+      read_report();
+      for (auto& child : children_) hear(child);
+      order_stop_where_asked();
+      kill_where_overdue();
+    }
+    read_report();
+    progress_.clear();
+    return verdict();
+  }
+
+ private:
+  bool absent(const std::string& name) const {
+    return std::find(launch_.without.begin(), launch_.without.end(), name) != launch_.without.end();
+  }
+
+  std::vector<std::string> command(const std::string& name, std::int64_t session, int report) const {
+    std::vector<std::string> words = {own_folder() + "/mixloop-" + name,
+                                      launch_.experiment,
+                                      "--session",
+                                      std::to_string(session),
+                                      "--lcm-url",
+                                      launch_.bus.url,
+                                      "--channel-prefix",
+                                      launch_.bus.prefix,
+                                      "--patience",
+                                      fmt::format("{}", launch_.patience),
+                                      "--evaluation",
+                                      std::string(name_of(launch_.evaluation))};
+    for (const auto& set : launch_.sets) words.insert(words.end(), {"--set", set});
+    if (launch_.real_time) words.emplace_back("--realtime");
+    if (name != "plant") return words;
+    if (launch_.paused) words.emplace_back("--paused");
+    if (launch_.hold) words.emplace_back("--hold");
+    if (!launch_.speed.empty()) words.insert(words.end(), {"--speed", launch_.speed});
+    words.insert(words.end(), {"--report-fd", std::to_string(report)});
+    if (launch_.truth) words.emplace_back("--truth");
+    if (launch_.allow_faults) words.emplace_back("--allow-faults");
+    if (!launch_.out.empty()) words.insert(words.end(), {"--out", launch_.out});
+    return words;
+  }
+
+  void wait_for_news() {
+    std::vector<pollfd> fds;
+    if (!reported_all_) fds.push_back({report_, POLLIN, 0});
+    if (!stopping_) fds.push_back({stop_.fd(), POLLIN, 0});
+    for (const auto& child : children_) {
+      if (child.running()) fds.push_back({child.pidfd(), POLLIN, 0});
+      if (child.errors() >= 0) fds.push_back({child.errors(), POLLIN, 0});
+    }
+    poll(fds.data(), fds.size(), 200);
+  }
+
+  void read_report() {
+    char buffer[4096];
+    for (ssize_t size = 0; !reported_all_ && (size = read(report_, buffer, sizeof buffer)) >= 0;) {
+      if (size == 0) reported_all_ = true;
+      reported_.append(buffer, static_cast<std::size_t>(size));
+    }
+    for (std::size_t end = reported_.find('\n'); end != std::string::npos; end = reported_.find('\n')) {
+      const auto line = nlohmann::json::parse(reported_.substr(0, end), nullptr, false);
+      reported_.erase(0, end + 1);
+      if (line.contains("keeping")) keeping_ = true;
+      if (line.contains("tick") && !launch_.quiet) progress_.at(line["tick"].get<std::int64_t>() / 64 * 64);
+      if (line.contains("result")) {
+        result_ = line["result"];
+        keeping_ = false;
+        if (deadline_) deadline_ = now() + kGrace;
+        progress_.clear();
+        if (at_end_) at_end_(*result_);
+      }
+    }
+  }
+
+  void hear(Child& child) {
+    child.read_errors([&](const std::string& line) {
+      if (!launch_.quiet && !stopping_) {
+        progress_.clear();
+        fmt::print(stderr, "{}\n", line);
+      }
+    });
+    if (!child.running() || !child.reap()) return;
+    if (!deadline_) deadline_ = now() + kGrace;
+    // Peers leave after the plant; one that leaves before it, or by a signal, takes the others along.
+    const bool early = child.name() != "plant" && !stopping_ && !result_;
+    const bool failed =
+        child.killed_by() != 0 || (early && child.exit_status() != 0 && child.exit_status() != kInterrupted);
+    if (failed && !first_failure_) first_failure_ = &child;
+    if (child.killed_by() != 0 || early) order_stop(child.killed_by() != 0 ? SIGTERM : 0);
+  }
+
+  void order_stop_where_asked() {
+    if (stop_.turned() && !stopping_) {
+      stopped_ = true;
+      order_stop(SIGINT);
+    }
+  }
+
+  /// The plant first: it tells the others, and keeps what it has.
+  void order_stop(int number) {
+    if (stopping_) return;
+    if (number != 0) {
+      stopping_ = true;
+      bool has_plant = false;
+      for (const auto& child : children_)
+        if (child.name() == "plant" && child.running()) child.signal(number), has_plant = true;
+      if (!has_plant)
+        for (const auto& child : children_) child.signal(number);
+    }
+    deadline_ = now() + kGrace;
+  }
+
+  /// SIGTERM after the grace, SIGKILL after as much again.
+  void kill_where_overdue() {
+    if (!deadline_ || now() < *deadline_) return;
+    for (const auto& child : children_)
+      if (child.name() != "plant" || !keeping_) child.signal(terminated_ ? SIGKILL : SIGTERM);
+    terminated_ = true;
+    stopping_ = true;
+    deadline_ = now() + kGrace;
+  }
+
+  nlohmann::json verdict() {
+    if (first_failure_) throw_failure(*first_failure_);
+    for (const auto& child : children_)
+      if (child.name() == "plant" && !result_) throw_failure(child);
+    for (const auto& child : children_)
+      if (child.name() == "plant" && child.exit_status() == kRunFault && !result_->contains("diverged_at") &&
+          !result_->contains("safe_at"))
+        throw_failure(child);
+    if (!result_)
+      return {{"verdict", stopped_ ? "interrupted" : "held"},
+              {"exit_status", stopped_ ? kInterrupted : kHeld}};
+    return *result_;
+  }
+
+  [[noreturn]] static void throw_failure(const Child& child) {
+    const std::string words = child.last_words();
+    const std::string how =
+        child.killed_by() != 0
+            ? fmt::format("was killed by signal {} ({})", child.killed_by(), strsignal(child.killed_by()))
+            : fmt::format("ended with status {}", child.exit_status());
+    throw RunFault("process_failed", fmt::format("mixloop-{} {}{}{}", child.name(), how,
+                                                 words.empty() ? "" : "; its last words: ", words));
+  }
+
+  const Launch& launch_;
+  const StopSwitch& stop_;
+  const std::function<void(const nlohmann::json&)>& at_end_;
+  Progress progress_;
+  std::vector<Child> children_;
+  int report_ = -1;
+  bool reported_all_ = false;
+  std::string reported_;
+  bool keeping_ = false;  ///< the plant is writing its results
+  std::optional<nlohmann::json> result_;
+  const Child* first_failure_ = nullptr;
+  bool stopped_ = false;  ///< by the user
+  bool stopping_ = false;
+  bool terminated_ = false;
+  std::optional<Instant> deadline_;
+};
+
+}  // namespace
+
+nlohmann::json launched(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
+                        const std::function<void(const nlohmann::json&)>& at_end) {
+  // Everything that can be refused is refused here, before a process is started.
+  if (experiment.plant.continuous)
+    throw InputError("out_of_range", {launch.experiment},
+                     "plant.control is 'continuous': over the bus a torque is held from tick to tick; "
+                     "expected 'held' (mixloop simulate runs both)");
+  const Plan plan = make_plan(experiment);
+  require_multicast_route(multicast_group(launch.bus.url));
+  if (!launch.out.empty()) {
+    prepare_folder(launch.out);
+    keep_inputs(launch.out, experiment);  // also where a stranger's plant keeps nothing
+  }
+  make_plant(experiment, plan);  // the programs are compiled once, not by each process
+  make_controller(experiment);
+  const nlohmann::json warnings = warnings_of(experiment, plan, launch.quiet);
+
+  std::optional<LogWriter> log;
+  if (!launch.out.empty()) log.emplace(launch.bus, std::filesystem::path(launch.out) / "run.lcmlog");
+  Run run(experiment, launch, stop, at_end, plan.ticks());
+  nlohmann::json result = run.wait();
+  result["warnings"] = warnings;
+  if (log) {
+    const LogSummary summary = log->finish();
+    result["log"] = {
+        {"file", "run.lcmlog"}, {"events", summary.events}, {"missing_ticks", summary.missing_ticks}};
+  }
+  return result;
+}
+
+}  // namespace mixloop

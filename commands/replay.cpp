@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// A log's states and references through the controller again: does it command the same bytes?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "loop/result.hpp"
+#include "runtime/bus/log_reader.hpp"
+#include "runtime/machine/stop_switch.hpp"
+#include "processes/bus_line.hpp"
+#include "commands/commands.hpp"
+#include "processes/controller_side.hpp"
+#include "commands/progress.hpp"
+
+namespace mixloop {
+namespace {
+
+struct Options : CommonOptions {
+  std::string experiment, log;
+  std::string prefix = BusOptions{}.prefix;
+  Evaluation evaluation = Evaluation::machine_code;
+};
+
+struct Replayed {
+  std::int64_t commands = 0;  ///< gone through again
+  std::int64_t identical = 0;
+  std::int64_t without_inputs = 0;               ///< whose state or reference the log lacks
+  std::optional<std::int64_t> first_difference;  ///< tick
+};
+
+/// Goes through a log in its order. What it hears is checked as on the bus.
+class Replay {
+ public:
+  Replay(const Experiment& experiment, const Plan& plan, const std::string& prefix)
+      : controller_(make_guarded_controller(experiment)),
+        side_(controller_side(controller_, experiment, plan)),
+        config_(config_of(common_ground(experiment))),
+        states_(experiment.scene->n()),
+        references_(experiment.scene->n()),
+        commands_(experiment.scene->n()),
+        again_(experiment.scene->n()),
+        names_{prefix + "STATE", prefix + "REFERENCE", prefix + "COMMAND"} {}
+
+  void take(const LogEvent& event) {
+    if (event.channel == names_[0]) keep(states_, state_of_, event.data);
+    if (event.channel == names_[1]) keep(references_, reference_of_, event.data);
+    if (event.channel == names_[2]) compare(event.data);
+  }
+  const Replayed& result() const { return result_; }
+
+ private:
+  static constexpr std::size_t kKept = 256;  // ticks
+
+  template <class Message>
+  void keep(Inbox<Message>& inbox, std::map<std::int64_t, Message>& by_tick, Bytes bytes) {
+    if (inbox.read(bytes) || inbox.message.config != config_) return;
+    if (inbox.message.session != session_) {
+      session_ = inbox.message.session;
+      state_of_.clear();
+      reference_of_.clear();
+      latest_ = -1;
+    }
+    by_tick[inbox.message.seq] = inbox.message;
+    if (by_tick.size() > kKept) by_tick.erase(by_tick.begin());
+  }
+
+  void compare(Bytes bytes) {
+    if (commands_.read(bytes)) return;
+    const command_t& logged = commands_.message;
+    if (logged.session != session_ || logged.config != config_ || logged.seq <= latest_) return;
+    const auto state = state_of_.find(logged.seq);
+    const auto reference = reference_of_.find(logged.seq - extrapolated_by(logged.flags));
+    const bool of_the_law = (logged.flags & command_t::FLAG_WITHOUT_REFERENCE) == 0;
+    if (latest_ < 0 && state != state_of_.end()) side_.begin(state->second);
+    latest_ = logged.seq;
+    if (state == state_of_.end() || (of_the_law && reference == reference_of_.end())) {
+      ++result_.without_inputs;
+      return;
+    }
+    command_t& again = again_.message;
+    set_header(again, header_of(logged));
+    again.utime = state->second.utime;
+    const std::int32_t of_the_peer = std::int32_t{command_t::FLAG_JOINED_LATE} | command_t::FLAG_STOPPED |
+                                     command_t::FLAG_WITHOUT_REFERENCE | command_t::FLAG_AFTERWARDS;
+    again.flags = (logged.flags & of_the_peer) | answer(state->second, of_the_law ? &reference->second : nullptr);
+    if ((logged.flags & command_t::FLAG_AFTERWARDS) != 0) again.flags |= make_safe();
+    const Bytes encoded = again_.encode();
+    ++result_.commands;
+    if (std::equal(encoded.begin(), encoded.end(), bytes.begin(), bytes.end()))
+      ++result_.identical;
+    else if (!result_.first_difference)
+      result_.first_difference = logged.seq;
+  }
+
+  /// Fills again_ in; null: there was no reference. The flags.
+  std::int32_t answer(const state_t& state, const reference_t* reference) {
+    auto& tau = again_.message.tau_commanded;
+    if (reference == nullptr) return make_safe();
+    const std::int64_t ahead = state.seq - reference->seq;
+    return side_.compute(state, *reference, ahead, tau) | extrapolation_flags(ahead);
+  }
+
+  std::int32_t make_safe() {
+    side_.safe(again_.message.tau_commanded);
+    return command_t::FLAG_SAFE;
+  }
+
+  GuardedController controller_;
+  ControllerSide side_;
+  std::int64_t config_;
+  Inbox<state_t> states_;
+  Inbox<reference_t> references_;
+  Inbox<command_t> commands_;
+  Outbox<command_t> again_;
+  std::array<std::string, 3> names_;
+  std::map<std::int64_t, state_t> state_of_;
+  std::map<std::int64_t, reference_t> reference_of_;
+  std::int64_t session_ = 0, latest_ = -1;
+  Replayed result_;
+};
+
+int tell(const Replayed& replayed, const std::string& damage, bool json) {
+  const bool held = replayed.commands > 0 && replayed.identical == replayed.commands;
+  if (json) {
+    nlohmann::json result = {{"commands", replayed.commands},
+                             {"identical", replayed.identical},
+                             {"without_inputs", replayed.without_inputs},
+                             {"damage", damage},
+                             {"verdict", held ? "held" : "missed"}};
+    if (replayed.first_difference) result["first_difference"] = *replayed.first_difference;
+    print_json(result);
+    return held ? kHeld : kMissed;
+  }
+  fmt::print("{} of {} commands are the same bytes again", replayed.identical, replayed.commands);
+  if (replayed.first_difference)
+    fmt::print("; the first that differs is of tick {}", *replayed.first_difference);
+  fmt::print("\n");
+  if (replayed.without_inputs > 0)
+    fmt::print("  {} more could not be gone through: the log lacks their state or reference\n",
+               replayed.without_inputs);
+  if (!damage.empty()) fmt::print("  {}\n", damage);
+  return held ? kHeld : kMissed;
+}
+
+int run(const Options& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
+  experiment.evaluation = options.evaluation;
+  const Plan plan = make_plan(experiment);
+  Replay replay(experiment, plan, options.prefix);
+  LogReader log(options.log);
+  while (const LogEvent* event = log.next()) {
+    if (stop.turned()) return kInterrupted;
+    replay.take(*event);
+  }
+  if (replay.result().commands + replay.result().without_inputs == 0)
+    throw InputError("no_commands", {options.log},
+                     "no COMMAND of this experiment on " + options.prefix +
+                         "*; expected the log of a run of the same experiment (--set, --channel-prefix)");
+  return tell(replay.result(), log.damage(), options.json);
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("replay", "a log's states and references through the controller again");
+  command->add_option("experiment", options->experiment, "the experiment file")
+      ->required()
+      ->type_name("EXPERIMENT");
+  command->add_option("log", options->log, "an LCM log, as run --out keeps it or lcm-logger writes it")
+      ->required()
+      ->type_name("LOG");
+  add_common_options(*command, *options);
+  command->add_option("--channel-prefix", options->prefix, "of every channel's name, " + options->prefix)
+      ->type_name("PREFIX");
+  add_evaluation_option(*command, options->evaluation);
+  command->footer(
+      "Holds (exit 0) when every command that can be gone through again is the same bytes; else exit 1, with "
+      "the\n"
+      "first tick that differs.\n"
+      "Example:\n"
+      "  mixloop replay experiments/paper.yaml results/paper/run.lcmlog");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "loop/keep.hpp"
+#include "loop/result.hpp"
+#include "runtime/protocol/real_time_plant.hpp"
+#include "processes/bus_line.hpp"
+#include "commands/commands.hpp"
+#include "commands/launched.hpp"
+#include "processes/speed.hpp"
+
+namespace mixloop {
+namespace {
+
+struct Options : CommonOptions {
+  Launch launch;
+  bool lockstep = false;
+};
+
+void print_bus(const nlohmann::json& result) {
+  if (!result.contains("round_trip_p50")) return;
+  if (result.contains("overruns"))
+    fmt::print(
+        "  commands         {} missed ({} in a row at most), {:.0f} % of the last 100 in time\n"
+        "  wake-up          p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; plant time slipped {} times, by "
+        "{:.6f} s\n",
+        result["missed_deadlines"].get<std::int64_t>(), result["longest_miss"].get<std::int64_t>(),
+        result["success_last_100"].get<double>() * 100, result.value("wake_up_p50", 0.0) * 1e6,
+        result.value("wake_up_p99", 0.0) * 1e6, result.value("wake_up_max", 0.0) * 1e6,
+        result["overruns"].get<std::int64_t>(), result["slipped"].get<double>());
+  fmt::print("  round trip       p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; {} states sent again\n",
+             result["round_trip_p50"].get<double>() * 1e6, result["round_trip_p99"].get<double>() * 1e6,
+             result["round_trip_max"].get<double>() * 1e6, result["resent"].get<std::int64_t>());
+}
+
+int run(Options& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  Launch& launch = options.launch;
+  launch.sets = options.sets;
+  launch.quiet = options.json;
+  if (!launch.speed.empty()) {
+    const double speed = speed_of(launch.speed);
+    if (launch.real_time) require_real_time_speed(speed);
+  }
+  Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
+  experiment.evaluation = launch.evaluation;
+  const auto print = [&](const nlohmann::json& result) {
+    if (options.json) return;
+    fmt::print("{}", summary(experiment, result));
+    print_bus(result);
+    if (!launch.out.empty()) fmt::print("  kept in {}\n", launch.out);
+    std::fflush(stdout);
+  };
+  bool printed = false;
+  const auto at_end = [&](const nlohmann::json& result) {
+    if (!launch.hold || options.json || result.contains("interrupted_at")) return;
+    print(result);
+    printed = true;
+    fmt::print(
+        "\nHolding the end point; Ctrl-C ends it. To look on from another terminal, join this network "
+        "namespace:\n"
+        "  nsenter --preserve-credentials --user --net --target {}\n",
+        getpid());
+    std::fflush(stdout);
+  };
+  const nlohmann::json result = launched(experiment, launch, stop, at_end);
+  if (!launch.out.empty())
+    std::ofstream(std::filesystem::path(launch.out) / "result.json") << result.dump(2) << '\n';
+  if (options.json)
+    print_json(result);
+  else if (!printed)
+    print(result);
+  return result.at("exit_status").get<int>();
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  Launch& launch = options->launch;
+  auto* command = app.add_subcommand("run", "the three processes over LCM: launches them, waits, summarises");
+  command->add_option("experiment", launch.experiment, "the experiment file")
+      ->required()
+      ->type_name("EXPERIMENT");
+  add_common_options(*command, *options);
+  add_bus_options(*command, launch.bus);
+  auto* lockstep =
+      command->add_flag("--lockstep", options->lockstep, "plant time waits for every command (the default)");
+  command
+      ->add_flag("--realtime", launch.real_time,
+                 "plant time keeps pace with the clock: a command acts when it arrives, and has a deadline")
+      ->excludes(lockstep);
+  command
+      ->add_option("--speed", launch.speed,
+                   "plant seconds a real second, or max: as fast as it goes. In lockstep max, in real time 1")
+      ->type_name("X");
+  command->add_flag("--paused", launch.paused, "begin paused, at tick 0; mixloop control goes on from there");
+  command->add_flag("--hold", launch.hold, "go on holding the end point until Ctrl-C");
+  command->add_flag("--truth", launch.truth, "publish TRUTH, which no controller may read");
+  command->add_flag("--allow-faults", launch.allow_faults, "obey FAULT messages: mixloop control fault");
+  command->add_option("--without", launch.without, "do not launch this one: a stranger's is used")
+      ->check(CLI::IsMember({"plant", "controller", "planner"}))
+      ->type_name("PROCESS");
+  command->add_option("--order", launch.order, "in which order they are launched")
+      ->delimiter(',')
+      ->type_name("A,B,C");
+  command->add_option("--out", launch.out, "keep result.json, trajectory.csv and the LCM log in this folder")
+      ->type_name("DIR");
+  command
+      ->add_option("--patience", launch.patience, "seconds without an answer after which a peer is lost, 10")
+      ->type_name("S")
+      ->check(CLI::Range(0.05, 3600.0));
+  add_evaluation_option(*command, launch.evaluation);
+  command->footer(
+      "LCM needs a multicast route; tools/in-namespace gives a command a network of its own that has one.\n"
+      "Examples:\n"
+      "  tools/in-namespace build/release/bin/mixloop run experiments/paper.yaml --speed 1 --out "
+      "results/paper\n"
+      "  tools/in-namespace build/release/bin/mixloop run experiments/paper.yaml --realtime\n"
+      "  mixloop run experiments/paper.yaml --without controller     # waits for yours");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

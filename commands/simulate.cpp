@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "loop/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "loop/arrivals.hpp"
+#include "loop/arrivals_file.hpp"
+#include "loop/keep.hpp"
+#include "loop/result.hpp"
+#include "runtime/clock/clock.hpp"
+#include "runtime/machine/stop_switch.hpp"
+#include "processes/command_line.hpp"
+#include "commands/commands.hpp"
+#include "commands/progress.hpp"
+#include "commands/simulated.hpp"
+#include "commands/warnings.hpp"
+
+namespace mixloop {
+
+nlohmann::json simulated(Experiment loaded, const std::string& out, const StopSwitch& stop, bool quiet,
+                         const std::string& ages) {
+  if (loaded.plant.continuous && !ages.empty())
+    throw InputError("out_of_range", {"--ages"},
+                     "plant.control is 'continuous', which no run in real time has; expected 'held'");
+  const auto arrivals = ages.empty() ? Arrivals() : read_arrivals(ages);
+  const auto is_fault = [](const Intervention& i) { return i.cause == nullptr; };
+  loaded.plant.faults.injected =
+      std::any_of(arrivals.interventions.begin(), arrivals.interventions.end(), is_fault);
+  const Plan plan = make_plan(loaded);
+  const Experiment experiment = with_integrator_settled(loaded, plan);
+  const nlohmann::json warnings = warnings_of(experiment, plan, quiet);
+  if (!out.empty()) prepare_folder(out);
+  Recorder recorder(experiment, plan);
+  Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);
+  const Instant start = now();
+  const auto go_on = [&](std::int64_t k) {
+    progress.at(k);
+    return !stop.turned();
+  };
+  if (ages.empty())
+    simulate(experiment, plan, recorder, go_on);
+  else
+    simulate_arrivals(experiment, plan, arrivals, recorder, go_on);
+  const double wall_time = std::chrono::duration<double>(now() - start).count();
+  auto result = result_json(experiment, recorder.measures(), "simulate", wall_time);
+  result["warnings"] = warnings;
+  if (!out.empty()) keep(out, experiment, plan, recorder, result);
+  return result;
+}
+
+namespace {
+
+struct Options : CommonOptions {
+  std::string experiment;
+  std::string out;
+  std::string ages;
+  Evaluation evaluation = Evaluation::machine_code;
+};
+
+int run(const Options& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
+  experiment.evaluation = options.evaluation;
+  const auto result = simulated(experiment, options.out, stop, options.json, options.ages);
+  if (options.json)
+    print_json(result);
+  else
+    fmt::print("{}{}", summary(experiment, result),
+               options.out.empty() ? "" : "  kept in " + options.out + "\n");
+  return result.at("exit_status").get<int>();
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("simulate", "the closed loop in one process, as fast as it goes");
+  command->add_option("experiment", options->experiment, "the experiment file")
+      ->required()
+      ->type_name("EXPERIMENT");
+  add_common_options(*command, *options);
+  command->add_option("--out", options->out, "keep result.json and trajectory.csv in this folder")
+      ->type_name("DIR");
+  command
+      ->add_option(
+          "--ages", options->ages,
+          "the ages.csv that a run in real time kept: its commands arrive as they did then, for the same "
+          "trajectory, bit by bit")
+      ->type_name("LOG");
+  add_evaluation_option(*command, options->evaluation);
+  command->footer(
+      "Examples:\n"
+      "  mixloop simulate experiments/paper.yaml\n"
+      "  mixloop simulate experiments/paper.yaml --set parameters.payload='3 kg' --set scene.gravity='[0, 0, "
+      "0]'\n"
+      "  mixloop simulate experiments/paper_continuous.yaml --json --out results/continuous");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

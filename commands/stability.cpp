@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "loop/result.hpp"
+#include "plant/hardware.hpp"
+#include "stability/confirmation.hpp"
+#include "stability/map.hpp"
+#include "processes/command_line.hpp"
+#include "commands/commands.hpp"
+
+namespace mixloop {
+namespace {
+
+struct Options : CommonOptions {
+  std::string experiment, picture;
+  std::vector<std::string> vary;
+  int poses = 21;
+  bool no_confirmation = false;
+};
+
+/// One variant of the experiment: what it sets beside `--set`.
+using Variant = std::vector<Override>;
+
+std::string name_of(const Variant& variant) {
+  std::string text;
+  for (const auto& [key, value] : variant)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, value);
+  return text.empty() ? "as it stands" : text;
+}
+
+/// Splits at commas outside of brackets.
+std::vector<std::string> values_in(const std::string& text) {
+  std::vector<std::string> values{""};
+  int depth = 0;
+  for (const char c : text) {
+    depth += (c == '[' || c == '{') - (c == ']' || c == '}');
+    if (c == ',' && depth == 0)
+      values.emplace_back();
+    else
+      values.back() += c;
+  }
+  return values;
+}
+
+/// Every combination of the varied values, the experiment as it stands first.
+std::vector<Variant> combinations(const std::vector<std::string>& vary) {
+  std::vector<Variant> all{{}};
+  for (const auto& text : vary) {
+    const auto [key, list] = parse_override(text);
+    std::vector<Variant> longer;
+    for (const auto& variant : all)
+      for (const auto& value : values_in(list)) {
+        longer.push_back(variant);
+        longer.back().push_back({key, value});
+      }
+    all = std::move(longer);
+  }
+  if (!vary.empty()) all.insert(all.begin(), Variant{});
+  return all;
+}
+
+/// Without --vary: as it stands, and without each mass that is a parameter.
+std::vector<Variant> unloaded(const Experiment& experiment) {
+  std::vector<Variant> all{{}};
+  const auto& parameters = experiment.scene->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].dimension.same_powers(kMass) && experiment.plant_parameters[i] != 0)
+      all.push_back({{"parameters." + parameters[i].name, "0 kg"}});
+  return all;
+}
+
+nlohmann::json number(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json numbers(const std::vector<std::optional<double>>& values) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& value : values) list.push_back(number(value));
+  return list;
+}
+
+nlohmann::json as_json(const Limits& limits) {
+  return {{"spectral_radius", limits.radius},
+          {"fastest_pole", limits.fastest_pole},
+          {"longest_tick", number(limits.longest_tick)},
+          {"longest_tick_without_delay", number(limits.longest_tick_undelayed)},
+          {"longest_delay", number(limits.longest_delay)},
+          {"longest_rk4_step", number(limits.longest_rk4_step)},
+          {"gain_margin", {{"most", number(limits.most_gain)}, {"least", number(limits.least_gain)}}},
+          {"gain_margin_of_motor", numbers(limits.most_gain_of_motor)}};
+}
+
+nlohmann::json as_json(const PathLimits& limits) {
+  return {{"spectral_radius", limits.radius},
+          {"time_of_spectral_radius", limits.time_of_radius},
+          {"longest_tick", number(limits.tick.value)},
+          {"time_of_longest_tick", limits.tick.time},
+          {"longest_delay", number(limits.delay.value)},
+          {"time_of_longest_delay", limits.delay.time}};
+}
+
+/// What simulation makes of a limit: one hundredth below it, and one above.
+nlohmann::json confirmation(const Experiment& experiment, const Plan& plan, const Limits& limits,
+                            const Sampling& sampling) {
+  nlohmann::json json;
+  const auto around = [&](const std::optional<double>& limit, auto at) {
+    if (!limit || *limit <= 0) return nlohmann::json(nullptr);
+    return nlohmann::json{{"below", name_of(fate_of_disturbance(experiment, plan, at(0.99 * *limit)))},
+                          {"above", name_of(fate_of_disturbance(experiment, plan, at(1.01 * *limit)))}};
+  };
+  json["longest_tick_without_delay"] = around(limits.longest_tick_undelayed, [](double tick) {
+    return Sampling{tick, 0};
+  });
+  json["longest_delay"] = around(limits.longest_delay, [&](double delay) {
+    return Sampling{sampling.tick, delay};
+  });
+  return json;
+}
+
+std::string milliseconds(const nlohmann::json& limit) {
+  if (limit.is_null()) return "no limit";
+  return limit == 0.0 ? "none works" : fmt::format("{:.3f} ms", limit.get<double>() * 1e3);
+}
+
+std::string factor(const nlohmann::json& limit) {
+  return limit.is_null() ? "no limit" : fmt::format("{:.3g}", limit.get<double>());
+}
+
+void print(const nlohmann::json& one) {
+  const auto& start = one.at("at_start");
+  const auto& path = one.at("along_path");
+  fmt::print("\n{}: {}\n", one.at("name").get<std::string>(), one.at("verdict").get<std::string>());
+  fmt::print("  {:<44}{:>14}{:>14}  at\n", "", "at the start", "on the path");
+  fmt::print("  {:<44}{:>14.6f}{:>14.6f}  {:.3f} s\n", "spectral radius a tick (stable below 1)",
+             start["spectral_radius"].get<double>(), path["spectral_radius"].get<double>(),
+             path["time_of_spectral_radius"].get<double>());
+  fmt::print("  {:<44}{:>14}{:>14}  {:.3f} s\n", "longest command delay at this tick",
+             milliseconds(start["longest_delay"]), milliseconds(path["longest_delay"]),
+             path["time_of_longest_delay"].get<double>());
+  fmt::print("  {:<44}{:>14}{:>14}  {:.3f} s\n", "longest tick at this delay",
+             milliseconds(start["longest_tick"]), milliseconds(path["longest_tick"]),
+             path["time_of_longest_tick"].get<double>());
+  fmt::print("  {:<44}{:>14}\n", "longest tick without delay",
+             milliseconds(start["longest_tick_without_delay"]));
+  fmt::print("  {:<44}{:>14}\n", "longest RK4 step, control continuous",
+             milliseconds(start["longest_rk4_step"]));
+  fmt::print("  {:<44}{:>10.1f} 1/s\n", "fastest pole, control continuous",
+             start["fastest_pole"].get<double>());
+  fmt::print("  {:<44}{:>14}\n", "largest factor on all gains", factor(start["gain_margin"]["most"]));
+  fmt::print("  {:<44}{:>14}\n", "least factor on all gains",
+             start["gain_margin"]["least"].is_null() ? "none needed" : factor(start["gain_margin"]["least"]));
+  for (std::size_t i = 0; i < start["gain_margin_of_motor"].size(); ++i)
+    fmt::print("  {:<44}{:>14}\n", fmt::format("largest factor on the gains of motor {}", i + 1),
+               factor(start["gain_margin_of_motor"][i]));
+  for (const auto& [what, fate] : one.at("confirmed").items())
+    if (!fate.is_null())
+      fmt::print("  simulated around {:<28} 1 % below: {}, 1 % above: {}\n", what,
+                 fate["below"].get<std::string>(), fate["above"].get<std::string>());
+}
+
+class Study {
+ public:
+  explicit Study(const Options& options) : options_(options) {}
+
+  nlohmann::json run() {
+    const Experiment nominal = load({});
+    const auto variants = options_.vary.empty() ? unloaded(nominal) : combinations(options_.vary);
+    nlohmann::json json = {{"experiment", nominal.name},
+                           {"tick", 1 / nominal.rate_hz},
+                           {"command_delay", nominal.plant.command_delay},
+                           {"control", nominal.plant.continuous ? "continuous" : "held"},
+                           {"warnings", nlohmann::json::array()},
+                           {"cases", nlohmann::json::array()}};
+    if (Hardware::needed(nominal.plant)) {
+      json["warnings"].push_back(
+          "sensors, actuators and faults are left out: the limits are those of ideal hardware");
+      if (!options_.json) fmt::print(stderr, "warning: {}\n", json["warnings"][0].get<std::string>());
+    }
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      say(fmt::format("case {} of {}: {}", i + 1, variants.size(), name_of(variants[i])));
+      json["cases"].push_back(study(variants[i]));
+    }
+    say("");
+    if (!options_.picture.empty())
+      draw(maps_, {1 / nominal.rate_hz, nominal.plant.command_delay}, "Stability of " + nominal.name,
+           options_.picture);
+    return json;
+  }
+
+ private:
+  Experiment load(const Variant& variant) const {
+    auto overrides = options_.overrides();
+    overrides.insert(overrides.end(), variant.begin(), variant.end());
+    return load_experiment(std::filesystem::path(options_.experiment), overrides);
+  }
+
+  nlohmann::json study(const Variant& variant) {
+    const Experiment experiment = load(variant);
+    const Plan plan = make_plan(experiment);
+    const Survey instants = survey(experiment, plan, options_.poses);
+    const Limits start = limits_of(instants.loops.front(), instants.sampling);
+    const PathLimits path = path_limits(instants);
+    maps_.push_back(stability_map(instants, name_of(variant)));
+    const StabilityMap& map = maps_.back();
+    nlohmann::json json = {
+        {"name", name_of(variant)},
+        {"set", nlohmann::json::object()},
+        {"verdict", path.radius > 1 ? "unstable" : "stable"},
+        {"at_start", as_json(start)},
+        {"along_path", as_json(path)},
+        {"map", {{"tick", map.ticks}, {"delay", map.delays}, {"spectral_radius", map.radius}}},
+        {"confirmed", nlohmann::json::object()}};
+    for (const auto& [key, value] : variant) json["set"][key] = value;
+    if (!options_.no_confirmation)
+      json["confirmed"] = confirmation(experiment, plan, start, instants.sampling);
+    return json;
+  }
+
+  /// What is at work, on a terminal.
+  static void say(const std::string& text) {
+    if (isatty(STDERR_FILENO) != 1) return;
+    fmt::print(stderr, "\r{}\033[K", text);
+    std::fflush(stderr);
+  }
+
+  const Options& options_;
+  std::vector<StabilityMap> maps_;
+};
+
+int run(const Options& options) {
+  const nlohmann::json result = Study(options).run();
+  if (options.json) {
+    print_json(result);
+  } else {
+    fmt::print("{}: tick {:.3f} ms, command delay {:.3f} ms, control {}\n",
+               result["experiment"].get<std::string>(), result["tick"].get<double>() * 1e3,
+               result["command_delay"].get<double>() * 1e3, result["control"].get<std::string>());
+    for (const auto& one : result["cases"]) print(one);
+    if (!options.picture.empty()) fmt::print("\ndrawn in {}\n", options.picture);
+  }
+  return result["cases"][0]["verdict"] == "stable" ? kHeld : kMissed;
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("stability", "where the sampled loop is stable, and its margins");
+  command->add_option("experiment", options->experiment, "the experiment file")
+      ->required()
+      ->type_name("EXPERIMENT");
+  add_common_options(*command, *options);
+  command
+      ->add_option(
+          "--vary", options->vary,
+          "an entry and the values that it takes in turn, key=v1,v2,...; may be repeated (unless given, "
+          "each mass that is a parameter is taken away once)")
+      ->type_name("KEY=VALUES")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--poses", options->poses, "at how many instants of the path (21)")
+      ->check(CLI::Range(2, 10'000))
+      ->type_name("N");
+  command
+      ->add_option("--picture", options->picture,
+                   "draw where it is stable, delay over tick, in this .svg or .png")
+      ->type_name("FILE");
+  command->add_flag("--no-confirmation", options->no_confirmation,
+                    "don't simulate disturbances on both sides of the limits");
+  command->footer(
+      "Plant, hold, delay and control law are linearised exactly at instants of the path; the limits are "
+      "where\n"
+      "an eigenvalue leaves the unit circle, each confirmed by simulating a disturbance on both sides of "
+      "it.\n"
+      "Exit status 0 where the experiment as it stands is stable all along, 1 where it isn't.\n"
+      "Examples:\n"
+      "  mixloop stability experiments/paper.yaml --picture stability.svg\n"
+      "  mixloop stability experiments/paper.yaml --vary parameters.payload='0 kg,2 kg,5 kg,10 kg'");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

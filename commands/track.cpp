@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "loop/result.hpp"
+#include "commands/attached.hpp"
+#include "processes/bus_line.hpp"
+#include "commands/commands.hpp"
+#include "commands/junit.hpp"
+#include "commands/launched.hpp"
+#include "commands/simulated.hpp"
+
+namespace mixloop {
+namespace {
+
+struct Options : CommonOptions {
+  std::vector<std::string> experiments;
+  bool over_bus = false, attach = false;
+  std::string junit;
+  BusOptions bus;
+  double patience = 10;
+  Evaluation evaluation = Evaluation::machine_code;
+};
+
+/// As `track` sees it: a divergence that was expected is held.
+int exit_status(const nlohmann::json& result) {
+  if (result.contains("error")) return result.at("error_status").get<int>();
+  const std::string verdict = result.at("verdict");
+  return verdict == "held"       ? kHeld
+         : verdict == "missed"   ? kMissed
+         : verdict == "diverged" ? kRunFault
+         : verdict == "safe_state" ? kRunFault
+                                 : kInterrupted;
+}
+
+nlohmann::json tracked(const std::string& file, const Options& options, const StopSwitch& stop) {
+  Experiment experiment = load_experiment(std::filesystem::path(file), options.overrides());
+  experiment.evaluation = options.evaluation;
+  const auto patience = nanoseconds(static_cast<std::int64_t>(options.patience * 1e9));
+  if (options.attach) return attached(experiment, options.bus, patience, stop);
+  if (!options.over_bus) return simulated(experiment, "", stop, true);
+  Launch launch;
+  launch.experiment = file;
+  launch.sets = options.sets;
+  launch.bus = options.bus;
+  launch.patience = options.patience;
+  launch.evaluation = options.evaluation;
+  launch.quiet = true;
+  return launched(experiment, launch, stop);
+}
+
+nlohmann::json tracked_or_error(const std::string& file, const Options& options, const StopSwitch& stop) {
+  const auto error = [&](const std::string& code, const std::string& message, const Place& place,
+                         int status) -> nlohmann::json {
+    return {{"experiment", std::filesystem::path(file).stem().string()},
+            {"error", {{"code", code}, {"message", message}, {"where", to_string(place)}}},
+            {"error_status", status}};
+  };
+  try {
+    return tracked(file, options, stop);
+  } catch (const InputError& bad) {
+    return error(bad.code, bad.message, bad.place, kBadInput);
+  } catch (const RunFault& fault) {
+    return error(fault.code, fault.what(), {}, kRunFault);
+  }
+}
+
+void print_line(const nlohmann::json& result) {
+  const std::string name = result.at("experiment");
+  if (result.contains("error")) {
+    const std::string where = result["error"]["where"];
+    fmt::print("error        {:<28} {}{}{}\n", name, where, where.empty() ? "" : ": ",
+               result["error"]["message"].get<std::string>());
+    return;
+  }
+  std::string text =
+      result.contains("diverged_at")
+          ? fmt::format("diverged at {:.6g} s", result["diverged_at"].get<double>())
+          : fmt::format("max {:.7f} mm, final {:.7f} mm", result["max_position_error"].get<double>() * 1e3,
+                        result["final_position_error"].get<double>() * 1e3);
+  for (const auto& line : result.at("missed")) text += "; " + line.get<std::string>();
+  fmt::print("{:<12} {:<28} {}\n", result.at("verdict").get<std::string>(), name, text);
+  std::fflush(stdout);
+}
+
+int run(const Options& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  auto results = nlohmann::json::array();
+  int highest = kHeld;
+  for (const auto& file : options.experiments) {
+    if (stop.turned()) break;
+    results.push_back(tracked_or_error(file, options, stop));
+    highest = std::max(highest, exit_status(results.back()));
+    if (!options.json) print_line(results.back());
+  }
+  if (stop.turned()) highest = kInterrupted;
+  if (!options.junit.empty()) write_junit(options.junit, results);
+  if (options.json) print_json({{"results", results}});
+  return highest;
+}
+
+}  // namespace
+
+void add_track_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("track", "tracking-error tests: runs experiments and holds what each expects");
+  command->add_option("experiments", options->experiments, "experiment files")
+      ->required()
+      ->type_name("EXPERIMENT...");
+  add_common_options(*command, *options);
+  auto* over_bus =
+      command->add_flag("--over-bus", options->over_bus,
+                        "by three processes over LCM, as mixloop run does, instead of in this process");
+  command->add_flag("--attach", options->attach, "listen to processes that are already running")
+      ->excludes(over_bus);
+  command->add_option("--junit", options->junit, "write a JUnit report to this file")->type_name("FILE");
+  command->add_option("--patience", options->patience, "seconds without a plant after which it is lost, 10")
+      ->type_name("S")
+      ->check(CLI::Range(0.05, 3600.0));
+  add_bus_options(*command, options->bus);
+  add_evaluation_option(*command, options->evaluation);
+  command->footer(
+      "One line each: held, missed (which bound), diverged, or error. An experiment with `expect: {diverges: "
+      "true}` is\n"
+      "held when it diverges. Exits with the highest status.\n"
+      "Example:\n"
+      "  mixloop track experiments/*.yaml --junit track.xml");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace mixloop

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "processes/bus_line.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace mixloop {
+
+void add_bus_options(CLI::App& command, BusOptions& options) {
+  if (const char* url = std::getenv("LCM_DEFAULT_URL"); url && *url) options.url = url;
+  command.add_option("--lcm-url", options.url, "where the bus is; LCM_DEFAULT_URL, else " + options.url)
+      ->type_name("URL");
+  command.add_option("--channel-prefix", options.prefix, "of every channel's name, " + options.prefix)
+      ->type_name("PREFIX");
+}
+
+Experiment PeerLine::load() const {
+  Experiment loaded = load_experiment(std::filesystem::path(experiment), overrides());
+  loaded.evaluation = evaluation;
+  if (loaded.plant.continuous)
+    throw InputError("out_of_range", {experiment},
+                     "plant.control is 'continuous': over the bus a torque is held from tick to tick; "
+                     "expected 'held' (mixloop simulate runs both)");
+  return loaded;
+}
+
+void add_peer_options(CLI::App& command, PeerLine& line) {
+  command.add_option("experiment", line.experiment, "the experiment file, the same for all three processes")
+      ->required()
+      ->type_name("EXPERIMENT");
+  add_common_options(command, line);
+  add_bus_options(command, line.bus);
+  command
+      .add_option("--session", line.session,
+                  "the run's id; 0: the plant draws one, the others take the first that they hear")
+      ->type_name("ID");
+  command.add_option("--patience", line.patience, "seconds without an answer after which a peer is lost, 10")
+      ->type_name("S")
+      ->check(CLI::Range(0.05, 3600.0));
+  command.add_option("--first-wait", line.first_wait, "seconds to wait for the others at the start, 60")
+      ->type_name("S")
+      ->check(CLI::Range(0.05, 86400.0));
+  command.add_flag(
+      "--realtime", line.real_time,
+      "keep real time: locked memory, real-time priority, no deep idle states, where they are allowed");
+  command.add_option("--priority", line.wishes.priority, "SCHED_FIFO priority in real time, 80; 0: none")
+      ->type_name("P")
+      ->check(CLI::Range(0, 98));
+  command.add_option("--cpu", line.wishes.cpu, "in real time, the core to stay on")
+      ->type_name("CORE")
+      ->check(CLI::Range(0, 1023));
+  add_evaluation_option(command, line.evaluation);
+}
+
+void PeerLine::take_rights(const char* program, bool say, int below) const {
+  if (!real_time) return;
+  RealTimeWishes mine = wishes;
+  if (mine.priority > below) mine.priority -= below;
+  for (const auto& lost : take_real_time_rights(mine))
+    if (say) fmt::print(stderr, "{}: {}\n", program, lost);
+}
+
+}  // namespace mixloop

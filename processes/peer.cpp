@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "processes/peer.hpp"
+
+#include <fmt/format.h>
+
+#include "loop/result.hpp"
+
+namespace mixloop {
+
+PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick) {
+  return {.n = experiment.scene->n(),
+          .session = line.session,
+          .config = config_of(common_ground(experiment)),
+          .rate_hz = experiment.rate_hz,
+          .last_tick = last_tick,
+          .first_wait = line.first_wait_ns(),
+          .patience = line.patience_ns(),
+          .max_missed = experiment.deadline.max_missed};
+}
+
+namespace {
+
+/// "7 length, 5 session"; stale ones alone are a lossy network's, and worth no word.
+std::string words_of(const Rejects& rejects) {
+  std::string words;
+  for (const Reject cause : kRejects)
+    if (const auto number = rejects.of(cause); number > 0)
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", number, name(cause));
+  return words;
+}
+
+}  // namespace
+
+int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop) {
+  if (report.joined_late) fmt::print(stderr, "{}: joined late, at a tick past 0\n", program);
+  if (ending != Ending::finished)
+    fmt::print(stderr, "{}: {} after {} ticks ({} answered again)\n", program, name(ending), report.answered,
+               report.repeated);
+  if (report.rejects.total() > report.rejects.stale)
+    fmt::print(stderr, "{}: {} messages dropped: {}\n", program, report.rejects.total(),
+               words_of(report.rejects));
+  if (ending == Ending::broken_off) return kHeld;  // the plant's fault, which it reports
+  return stop.turned() ? kInterrupted : kHeld;
+}
+
+int peer_main(int argc, char** argv, const char* description, const char* footer,
+              int (*run)(const PeerLine&)) {
+  int status = 0;
+  PeerLine line;
+  CLI::App app(description);
+  add_peer_options(app, line);
+  app.footer(std::string(footer) +
+             "\nLeaves when the plant says END, after --patience without a STATE, or on Ctrl-C.");
+  app.callback([&] { status = run(line); });
+  return run_command_line(argc, argv, app, status);
+}
+
+}  // namespace mixloop

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "runtime/bus/wire.hpp"
+
+namespace mixloop {
+
+/// What an operator asks of the plant's time by SIM_CONTROL: pause, steps, speed, reset. Messages for another
+/// session, and the plant's own, are left alone.
+class Conductor {
+ public:
+  Conductor(int n, std::int64_t session, bool paused);
+
+  /// Takes a SIM_CONTROL message; the cause where it is dropped.
+  std::optional<Reject> hear(Bytes bytes);
+
+  bool paused() const { return paused_; }
+  /// Whether the next tick may begin; while paused, a step that was asked for is used up by it.
+  bool lets_go();
+  bool reset_asked() const { return reset_; }
+  /// The speed that was asked for since the last call; 0: as fast as it goes.
+  std::optional<double> new_speed();
+
+ private:
+  Inbox<sim_control_t> inbox_;
+  std::int64_t session_;
+  bool paused_, reset_ = false;
+  std::int64_t steps_ = 0;
+  std::optional<double> speed_;
+};
+
+}  // namespace mixloop

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/protocol/controller_peer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "notation/errors.hpp"
+#include "runtime/protocol/config_hash.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr double kReferenceWait = 0.25;    // ticks: what is missing by then is extrapolated
+constexpr std::int64_t kFarthest = 32767;  // ticks: what the command's flags can say
+
+}  // namespace
+
+ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptions& options,
+                               ControllerSide side)
+    : bus_(bus),
+      options_(options),
+      side_(std::move(side)),
+      link_(bus, stop, options),
+      inbox_(options.n),
+      command_(options.n),
+      safe_(options.n),
+      reference_channel_(bus.channel("REFERENCE")),
+      command_channel_(bus.channel("COMMAND")),
+      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n)}) {
+  if (!side_.compute) throw std::logic_error("the controller has no law to compute");
+  bus_.subscribe<&ControllerPeer::on_reference>(reference_channel_, this);
+}
+
+Ending ControllerPeer::run() {
+  for (;;) {
+    const PlantLink::Event event = link_.next(next_look());
+    drained_ = event == PlantLink::Event::nothing;
+    switch (event) {
+      case PlantLink::Event::over:
+        if (link_.ending() == Ending::stopped && in_real_time()) send_safe_afterwards(command_t::FLAG_STOPPED);
+        return link_.ending();
+      case PlantLink::Event::fresh:
+        if (link_.first_of_session()) begin_session();
+        asked_ = now();
+        silence_answered_ = false;
+        break;
+      case PlantLink::Event::repeated:
+        repeat();
+        break;
+      case PlantLink::Event::other:
+      case PlantLink::Event::nothing:
+        break;
+    }
+    require_planner();
+    if (in_real_time())
+      attend_to_time();
+    else
+      answer_if_ready();
+  }
+}
+
+nanoseconds ControllerPeer::ticks(double number) const {
+  return nanoseconds(std::llround(1e9 * number / options_.rate_hz));
+}
+
+void ControllerPeer::begin_session() {
+  const state_t& state = link_.state();
+  if (state.seq > 0 && side_.has_memory)
+    throw RunFault("joined_late", "first heard this session at tick " + std::to_string(state.seq) +
+                                      ", and the control law needs all ticks since 0: restart the plant");
+  // References that came before the first STATE of a given session are kept: they are of this session.
+  for (Kept& k : ring_)
+    if (k.message.session != state.session) k.tick = -1;
+  answered_ = -1;
+  if (side_.begin) side_.begin(state);
+}
+
+void ControllerPeer::answer_if_ready() {
+  const std::int64_t tick = link_.latest();
+  if (tick <= answered_) return;
+  const Kept& reference = kept(tick);
+  if (reference.tick == tick) answer(reference.message);
+}
+
+void ControllerPeer::answer(const reference_t& reference) {
+  const state_t& state = link_.state();
+  const std::int64_t tick = state.seq, ahead = tick - reference.seq;
+  command_t& message = command_.message;
+  const std::int32_t flags =
+      side_.compute(state, reference, ahead, message.tau_commanded) | extrapolation_flags(ahead);
+  if (!is_finite(message))
+    throw RunFault("not_finite", "the control law gives no finite torque at tick " + std::to_string(tick));
+  set_header(message, link_.answer_header(tick, state.utime));
+  message.flags = flags | (link_.report.joined_late ? command_t::FLAG_JOINED_LATE : 0);
+  bus_.publish(command_channel_, command_.encode());
+  answered_ = tick;
+  ++link_.report.answered;
+}
+
+// When to look again though nothing is received.
+Instant ControllerPeer::next_look() const {
+  if (link_.latest() < 0 || !in_real_time() || at_the_gate()) return Instant::max();
+  if (link_.latest() > answered_) return drained_ ? asked_ + ticks(kReferenceWait) : now();
+  return silence_answered_ ? Instant::max() : asked_ + ticks(options_.max_missed);
+}
+
+void ControllerPeer::attend_to_time() {
+  if (at_the_gate()) return answer_if_ready();
+  if (!drained_) return;
+  const std::int64_t tick = link_.latest();
+  if (tick <= answered_) {
+    if (!silence_answered_ && now() - asked_ >= ticks(options_.max_missed)) {
+      silence_answered_ = true;
+      send_safe_afterwards(0);
+    }
+    return;
+  }
+  answer_if_ready();
+  if (tick <= answered_ || now() - asked_ < ticks(kReferenceWait)) return;
+  if (const reference_t* reference = newest_before(tick)) {
+    ++link_.report.extrapolated;
+    return answer(*reference);
+  }
+  answer_safely();
+}
+
+const reference_t* ControllerPeer::newest_before(std::int64_t tick) const {
+  const Kept* newest = nullptr;
+  for (const Kept& k : ring_)
+    if (k.tick >= 0 && k.tick < tick && (newest == nullptr || k.tick > newest->tick)) newest = &k;
+  const std::int64_t farthest = std::min<std::int64_t>(options_.max_missed, kFarthest);
+  return newest != nullptr && tick - newest->tick <= farthest ? &newest->message : nullptr;
+}
+
+void ControllerPeer::answer_safely() {
+  fill_safe(command_.message, command_t::FLAG_WITHOUT_REFERENCE);
+  bus_.publish(command_channel_, command_.encode());
+  answered_ = link_.latest();
+  ++link_.report.safe_commands;
+}
+
+// Where the answer itself got lost the plant may take this in its place: it says how that came to be.
+void ControllerPeer::send_safe_afterwards(std::int32_t flags) {
+  const bool answered = answered_ == link_.latest();
+  const std::int32_t before = answered ? command_.message.flags | command_t::FLAG_AFTERWARDS
+                                       : std::int32_t{command_t::FLAG_WITHOUT_REFERENCE};
+  fill_safe(safe_.message, before | flags);
+  bus_.publish(command_channel_, safe_.encode());
+  ++link_.report.safe_commands;
+}
+
+void ControllerPeer::fill_safe(command_t& message, std::int32_t flags) const {
+  if (side_.safe)
+    side_.safe(message.tau_commanded);
+  else
+    std::fill(message.tau_commanded.begin(), message.tau_commanded.end(), 0.0);
+  set_header(message, link_.answer_header(link_.latest(), link_.state().utime));
+  message.flags = flags | command_t::FLAG_SAFE;
+}
+
+void ControllerPeer::repeat() {
+  if (link_.latest() != answered_) return;
+  bus_.publish(command_channel_, command_.encoded());
+  ++link_.report.repeated;
+}
+
+// At the start the plant decides how long all wait for each other; later a planner that is silent while the
+// plant goes on asking is lost.
+void ControllerPeer::require_planner() const {
+  if (planner_agreement_.refuted())
+    throw RunFault("config_mismatch", "the planner on " + reference_channel_ + " was started with another " +
+                                          name_difference(options_.config, planner_agreement_.theirs()) +
+                                          " than this process");
+  if (answered_ < 0 || link_.latest() <= answered_) return;
+  if (now() - asked_ < options_.patience) return;
+  throw RunFault("lost_peer", "no reference for tick " + std::to_string(link_.latest()) + " on " +
+                                  reference_channel_ +
+                                  " while the plant goes on asking: the planner is missing");
+}
+
+void ControllerPeer::on_reference(Bytes bytes) {
+  const auto reject = [this](Reject cause) { link_.report.rejects.count(cause); };
+  if (const auto cause = inbox_.read(bytes)) return reject(*cause);
+  const reference_t& heard = inbox_.message;
+  const auto cause = link_.check_origin(heard.session, heard.config);
+  if (cause != Reject::session) planner_agreement_.hears(options_.config, heard.config);
+  if (cause) return reject(*cause);
+  if (heard.seq < 0) return reject(Reject::tick);
+  if (heard.session == link_.state().session && heard.seq <= answered_) return reject(Reject::stale);
+  if (heard.seq >= std::max<std::int64_t>(link_.latest(), 0) + kAhead) return reject(Reject::tick);
+  Kept& slot = kept(heard.seq);
+  if (slot.tick == heard.seq && slot.message.session == heard.session) return reject(Reject::stale);
+  slot.tick = heard.seq;
+  std::swap(slot.message, inbox_.message);
+}
+
+}  // namespace mixloop

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/protocol/plant_link.hpp"
+
+#include <utility>
+
+#include "notation/errors.hpp"
+#include "runtime/protocol/config_hash.hpp"
+#include "runtime/clock/plant_time.hpp"
+
+namespace mixloop {
+namespace {
+
+Ending ending_of(std::int8_t reason) {
+  switch (reason) {
+    case sim_control_t::REASON_FINISHED:
+      return Ending::finished;
+    case sim_control_t::REASON_INTERRUPTED:
+      return Ending::interrupted;
+    case sim_control_t::REASON_STOPPED:
+      return Ending::stopped;
+    default:
+      return Ending::broken_off;
+  }
+}
+
+bool holds(const state_t& state) { return (state.flags & state_t::FLAG_HOLD) != 0; }
+
+std::string whole_milliseconds(nanoseconds t) {
+  return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(t).count()) + " ms";
+}
+
+}  // namespace
+
+PlantLink::PlantLink(Bus& bus, const StopSwitch& stop, const PeerOptions& options)
+    : bus_(bus),
+      stop_(stop),
+      options_(options),
+      state_channel_(bus.channel("STATE")),
+      session_(options.session),
+      inbox_(options.n),
+      control_inbox_(options.n),
+      state_(blank<state_t>(options.n)),
+      deadline_(now() + options.first_wait) {
+  bus_.subscribe<&PlantLink::on_state>(state_channel_, this);
+  bus_.subscribe<&PlantLink::on_control>(bus_.channel("SIM_CONTROL"), this);
+  bus_.subscribe<&PlantLink::on_stop>(bus_.channel("STOP"), this);
+}
+
+PlantLink::Event PlantLink::next(Instant until) {
+  heard_ = Event::other;
+  const Wake wake = bus_.wait(std::min(deadline_, until), stop_);
+  report.failed_sends = bus_.failed_sends();
+  if (wake == Wake::stop) {
+    ending_ = Ending::interrupted;
+    return Event::over;
+  }
+  if (wake == Wake::message) return judge();
+  return now() < deadline_ ? Event::nothing : silence();
+}
+
+PlantLink::Event PlantLink::silence() {
+  if (latest() >= options_.last_tick && !holds(state_)) return Event::over;  // its END got lost
+  throw RunFault("lost_peer", "nothing on " + state_channel_ + " for " +
+                                  (session_.heard() ? whole_milliseconds(options_.patience) + " after tick " +
+                                                          std::to_string(latest())
+                                                    : whole_milliseconds(options_.first_wait)) +
+                                  ": the plant is missing");
+}
+
+PlantLink::Event PlantLink::judge() {
+  if (stop_heard_) {
+    ending_ = Ending::stopped;
+    return Event::over;
+  }
+  if (end_heard_) return Event::over;
+  if (agreement_.refuted())
+    throw RunFault("config_mismatch", "the plant on " + state_channel_ + " was started with another " +
+                                          name_difference(options_.config, agreement_.theirs()) +
+                                          " than this process");
+  return heard_;
+}
+
+Header PlantLink::answer_header(std::int64_t tick, std::int64_t utime) const {
+  return {
+      .n = options_.n, .utime = utime, .seq = tick, .session = session_.current(), .config = options_.config};
+}
+
+std::optional<Reject> PlantLink::check_origin(std::int64_t session, std::int64_t config) const {
+  if (session == 0 || session != session_.current()) return Reject::session;
+  if (config != options_.config) return Reject::config;
+  return std::nullopt;
+}
+
+void PlantLink::on_state(Bytes bytes) {
+  const auto reject = [this](Reject cause) { report.rejects.count(cause); };
+  if (const auto cause = inbox_.read(bytes)) return reject(*cause);
+  const state_t& heard = inbox_.message;
+  const Instant at = now();
+  if (!session_.would_follow(heard.session, at)) return reject(Reject::session);
+  if (!agreement_.hears(options_.config, heard.config)) return reject(Reject::config);
+  if (heard.seq < 0 || heard.seq > kFarthestTick || (heard.seq > options_.last_tick && !holds(heard)))
+    return reject(Reject::tick);
+
+  deadline_ = at + options_.patience;
+  const bool first = session_.follow(heard.session, at);
+  if (!first && heard.seq < latest()) return reject(Reject::stale);
+  if (!first && heard.seq == latest()) {
+    heard_ = Event::repeated;
+    return;
+  }
+  std::swap(state_, inbox_.message);
+  heard_ = Event::fresh;
+  first_of_session_ = first;
+  report.latest = state_.seq;
+  report.session = state_.session;
+  if (first) report.joined_late = state_.seq > 0;
+}
+
+void PlantLink::on_control(Bytes bytes) {
+  const auto reject = [this](Reject cause) { report.rejects.count(cause); };
+  if (const auto cause = control_inbox_.read(bytes)) return reject(*cause);
+  const sim_control_t& control = control_inbox_.message;
+  if (const auto cause = check_origin(control.session, control.config)) return reject(*cause);
+  // The plant's own RESET says which session comes next; an operator's is for the plant alone.
+  if (control.action == sim_control_t::ACTION_RESET && control.seq != 0)
+    return session_.go_over_to(control.seq);
+  if (control.action != sim_control_t::ACTION_END) return;
+  end_heard_ = true;
+  ending_ = ending_of(control.reason);
+}
+
+}  // namespace mixloop

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/protocol/plant_port.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "notation/errors.hpp"
+#include "runtime/protocol/config_hash.hpp"
+#include "runtime/clock/plant_time.hpp"
+#include "runtime/protocol/session.hpp"
+
+namespace mixloop {
+namespace {
+
+// Long enough to be sent five times more when datagrams get lost, short enough not to be noticed.
+constexpr int kRepeats = 6;
+constexpr auto kRepeatInterval = std::chrono::milliseconds(1);
+// A plant that is held by the operator goes on being heard.
+constexpr auto kHeldInterval = std::chrono::milliseconds(100);
+
+std::int8_t end_reason(Ending ending) {
+  switch (ending) {
+    case Ending::finished:
+      return sim_control_t::REASON_FINISHED;
+    case Ending::interrupted:
+      return sim_control_t::REASON_INTERRUPTED;
+    case Ending::stopped:
+      return sim_control_t::REASON_STOPPED;
+    case Ending::reset:
+    case Ending::broken_off:
+      break;
+  }
+  return sim_control_t::REASON_FAULT;
+}
+
+PlantOptions with_session(PlantOptions options) {
+  if (options.session == 0) options.session = draw_session();
+  return options;
+}
+
+}  // namespace
+
+Ending ending_of(PlantPort::Answer answer) {
+  switch (answer) {
+    case PlantPort::Answer::interrupted:
+      return Ending::interrupted;
+    case PlantPort::Answer::reset:
+      return Ending::reset;
+    default:
+      return Ending::stopped;
+  }
+}
+
+PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& options, const PlantSide& plant,
+                     std::int32_t state_flags, nanoseconds slack)
+    : bus_(bus),
+      stop_(stop),
+      options_(with_session(options)),
+      plant_(plant),
+      state_flags_(state_flags | (options.hold ? state_t::FLAG_HOLD : 0)),
+      pacer_(options.rate_hz, options.speed, slack),
+      conductor_(options.n, options_.session, options.paused),
+      state_(options.n),
+      truth_(options.n),
+      control_(options.n),
+      timing_(bus, {.n = options.n}),
+      inbox_(options.n),
+      state_channel_(bus.channel("STATE")),
+      truth_channel_(bus.channel("TRUTH")),
+      control_channel_(bus.channel("SIM_CONTROL")),
+      command_channel_(bus.channel("COMMAND")) {
+  if (!plant_.measure || (options_.truth && !plant_.truth))
+    throw std::logic_error("a function of the plant's side is missing");
+  report.session = options_.session;
+  const Header header{.n = options_.n, .session = options_.session, .config = options_.config};
+  set_header(state_.message, header);
+  set_header(truth_.message, header);
+  set_header(control_.message, header);
+  bus_.subscribe<&PlantPort::on_command>(command_channel_, this);
+  bus_.subscribe<&PlantPort::on_control>(control_channel_, this);
+  bus_.subscribe<&PlantPort::on_stop>(bus.channel("STOP"), this);
+}
+
+PlantPort::~PlantPort() {
+  stop_listening();
+  for (const char* name : {"COMMAND", "SIM_CONTROL", "STOP"}) bus_.unsubscribe(bus_.channel(name));
+}
+
+bool PlantPort::publish_state(std::int64_t tick, std::int32_t flags) {
+  state_t& message = state_.message;
+  message.seq = tick;
+  message.utime = plant_time_us(tick, options_.rate_hz);
+  const bool stale = plant_.measure(tick, message.psi_measured, message.psid_measured);
+  message.flags = state_flags_ | flags | (stale ? state_t::FLAG_STALE : 0);
+  if (!is_finite(message)) return false;
+  tick_ = tick;
+  sent_ = now();
+  bus_.publish(state_channel_, state_.encode());
+  return true;
+}
+
+void PlantPort::publish_truth(std::int64_t tick, std::int32_t flags) {
+  if (!options_.truth) return;
+  truth_t& message = truth_.message;
+  message.seq = tick;
+  message.utime = plant_time_us(tick, options_.rate_hz);
+  plant_.truth(tick, message);
+  message.flags |= flags;
+  if (is_finite(message)) bus_.publish(truth_channel_, truth_.encode());
+}
+
+void PlantPort::publish_timing(const DeadlineCounts& deadlines) {
+  timing_.send_where_due(bus_, header_of(state_.message), report, deadlines);
+}
+
+void PlantPort::send_end(Ending ending) {
+  report.failed_sends = bus_.failed_sends();
+  sim_control_t& message = control_.message;
+  message.action = sim_control_t::ACTION_END;
+  message.reason = end_reason(ending);
+  message.seq = std::max<std::int64_t>(report.ticks_done - 1, 0);
+  message.utime = plant_time_us(message.seq, options_.rate_hz);
+  send_repeatedly();
+}
+
+void PlantPort::send_reset(std::int64_t next) {
+  sim_control_t& message = control_.message;
+  message.action = sim_control_t::ACTION_RESET;
+  message.seq = next;
+  send_repeatedly();
+}
+
+void PlantPort::send_repeatedly() {
+  control_.encode();
+  for (int i = 0; i < kRepeats; ++i) {
+    if (i > 0) sleep_until(now() + kRepeatInterval);
+    bus_.publish(control_channel_, control_.encoded());
+  }
+}
+
+PlantPort::Answer PlantPort::asked() const {
+  if (stop_.turned()) return Answer::interrupted;
+  if (stop_heard_) return Answer::stopped;
+  if (conductor_.reset_asked()) return Answer::reset;
+  return Answer::due;
+}
+
+PlantPort::Answer PlantPort::wait_for_command() {
+  const nanoseconds longest = tick_ == 0 ? options_.first_wait : options_.patience;
+  std::uint64_t& resent = tick_ == 0 ? report.resent_at_start : report.resent;
+  const Instant began = now();
+  nanoseconds interval = options_.first_resend;
+  Instant resend = began + interval;
+
+  for (;;) {
+    if (const Answer answer = wait_until(resend); answer != Answer::due) {
+      if (answer == Answer::command) stop_listening();
+      return answer;
+    }
+    const nanoseconds silence = now() - began;
+    if (silence >= longest) lost_peer(longest);
+    if (silence >= longest / 4) listen_for_planner();
+    bus_.publish(state_channel_, state_.encoded());
+    ++resent;
+    interval = std::min(2 * interval, options_.slowest_resend);
+    resend = std::min(now() + interval, began + longest);
+  }
+}
+
+PlantPort::Answer PlantPort::wait_until(Instant due) {
+  for (;;) {
+    if (std::exchange(command_heard_, false)) return Answer::command;
+    const Wake wake = bus_.wait(due, stop_);
+    if (const Answer answer = asked(); answer != Answer::due) return answer;
+    require_agreement();
+    if (!command_heard_ && (wake == Wake::deadline || now() >= due)) return Answer::due;
+  }
+}
+
+// Most of the way the bus is listened to, so that a stop is heard at once; the last stretch is slept
+// through by an absolute clock.
+PlantPort::Answer PlantPort::wait_for_due(std::int64_t tick) {
+  constexpr auto kLastStretch = std::chrono::milliseconds(2);
+  if (const auto speed = conductor_.new_speed())
+    pacer_.go_on(tick, pacer_.paced() ? pacer_.due(tick) : now(), *speed);
+  if (!conductor_.lets_go()) {
+    if (const Answer answer = wait_while_held(); answer != Answer::due) return answer;
+    pacer_.go_on(tick, now(), conductor_.new_speed().value_or(pacer_.speed()));
+  }
+  if (!pacer_.paced()) return Answer::due;
+  const Instant due = pacer_.due(tick);
+  while (due - now() > kLastStretch)
+    if (const Answer answer = wait_until(due - kLastStretch);
+        answer != Answer::due && answer != Answer::command)
+      return answer;
+  if (const Answer answer = asked(); answer != Answer::due) return answer;
+  while (now() < due && !stop_.turned()) sleep_until(due);
+  return began(tick);
+}
+
+PlantPort::Answer PlantPort::began(std::int64_t tick) {
+  const Instant at = now();
+  last_late_ = std::max(at - pacer_.due(tick), nanoseconds(0));
+  report.wake_up.add(last_late_);
+  pacer_.began(tick, at);
+  if (pacer_.slipped() > report.slipped) ++report.overruns;
+  report.slipped = pacer_.slipped();
+  return stop_.turned() ? Answer::interrupted : Answer::due;
+}
+
+// A command that comes meanwhile is left for the tick that begins then.
+PlantPort::Answer PlantPort::wait_while_held() {
+  Instant repeat = now() + kHeldInterval;
+  do {
+    const Wake wake = bus_.wait(repeat, stop_);
+    if (const Answer answer = asked(); answer != Answer::due) return answer;
+    require_agreement();
+    if (wake != Wake::deadline && now() < repeat) continue;
+    bus_.publish(state_channel_, state_.encoded());
+    repeat = now() + kHeldInterval;
+  } while (!conductor_.lets_go());
+  return Answer::due;
+}
+
+// REFERENCEs would wake the plant once a tick for nothing: it hears them only to tell who is missing.
+void PlantPort::listen_for_planner() {
+  if (listens_for_planner_) return;
+  listens_for_planner_ = true;
+  planner_heard_ = false;
+  bus_.subscribe<&PlantPort::on_reference>(bus_.channel("REFERENCE"), this);
+}
+
+void PlantPort::stop_listening() {
+  if (!listens_for_planner_) return;
+  listens_for_planner_ = false;
+  bus_.unsubscribe(bus_.channel("REFERENCE"));
+}
+
+void PlantPort::require_agreement() const {
+  if (!agreement_.refuted()) return;
+  throw RunFault("config_mismatch",
+                 "the controller that answers on " + command_channel_ + " was started with another " +
+                     name_difference(options_.config, agreement_.theirs()) + " than this plant");
+}
+
+void PlantPort::lost_peer(nanoseconds waited) const {
+  const std::string reference_channel = bus_.channel("REFERENCE");
+  throw RunFault("lost_peer",
+                 "no answer to tick " + std::to_string(tick_) + " on " + command_channel_ + " for " +
+                     std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(waited).count()) +
+                     " ms; " + reference_channel +
+                     (planner_heard_ ? " answers, so the controller is missing"
+                                     : " is silent too, so the planner is missing, or both are"));
+}
+
+void PlantPort::on_command(Bytes bytes) {
+  const auto reject = [this](Reject cause) { report.rejects.count(cause); };
+  // Another answer must not overwrite one that waits to be applied.
+  if (command_heard_) return reject(Reject::stale);
+  if (const auto cause = inbox_.read(bytes)) return reject(*cause);
+  const command_t& command = inbox_.message;
+  if (command.session != options_.session) return reject(Reject::session);
+  if (!agreement_.hears(options_.config, command.config)) return reject(Reject::config);
+  if (command.seq < oldest_) return reject(Reject::stale);
+  if (command.seq > tick_) return reject(Reject::tick);
+  command_heard_ = true;
+  if ((command.flags & command_t::FLAG_JOINED_LATE) != 0) ++report.joined_late;
+}
+
+void PlantPort::on_control(Bytes bytes) {
+  if (const auto cause = conductor_.hear(bytes)) report.rejects.count(*cause);
+}
+
+}  // namespace mixloop

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "runtime/bus/bus.hpp"
+#include "runtime/protocol/plant_side.hpp"
+
+namespace mixloop {
+
+/// Publishes TIMING five times a second, while the plant has nothing else to do. Allocates nothing after
+/// construction.
+class TimingSender {
+ public:
+  TimingSender(Bus& bus, const Header& header);
+
+  /// Sends where it is time to; `header` is the latest STATE's.
+  void send_where_due(Bus& bus, const Header& header, const PlantReport& report,
+                      const DeadlineCounts& deadlines);
+
+ private:
+  std::string channel_;
+  Outbox<timing_t> message_;
+  Instant next_{0};
+};
+
+}  // namespace mixloop

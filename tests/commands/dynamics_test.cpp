@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+
+#include "tests/support/command.hpp"
+#include "tests/support/paths.hpp"
+
+namespace mixloop {
+namespace {
+
+// REFERENCES.md's state, on which two independent derivations agree to the digits shown.
+TEST(DynamicsCommand, GivesTheReferenceStateToAllDigits) {
+  Command command({bin("mixloop"), "dynamics", robot(), "--psi", "1,2,3", "--psid", "0.1,0.2,0.3", "--json"});
+  ASSERT_EQ(command.wait(), 0) << command.err();
+  const auto json = command.json();
+  const double M[3][3] = {{2.86550198957870e-3, -3.29814230930174e-4, 4.53116513172736e-6},
+                          {-3.29814230930174e-4, 8.44291084783174e-3, -7.56340623201794e-3},
+                          {4.53116513172736e-6, -7.56340623201794e-3, 7.551323125e-3}};
+  const double h[3] = {0.154094718617371, 1.39472952783717, -1.80565290181932};
+  const double E[3] = {0.0109567571316184, 0.00137677281379405, 0.355576736892400};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // 15 digits are printed; the small off-diagonal element is a difference of terms of 1e-3.
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(json["mass_matrix"][i][j], M[i][j], 1e-17);
+    EXPECT_NEAR(json["bias"][i], h[i], 1e-14);
+    EXPECT_NEAR(json["end_effector"]["position"][i], E[i], 1e-15);
+  }
+  for (const char* key : {"q", "constraint_jacobian", "psidd"}) EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["end_effector"]["jacobian"].size(), 3U);
+}
+
+TEST(DynamicsCommand, TakesParametersAndZeroForWhatIsOmitted) {
+  Command command({bin("mixloop"), "dynamics", robot(), "--set", "parameters.payload=0 kg", "--json"});
+  ASSERT_EQ(command.wait(), 0) << command.err();
+  EXPECT_DOUBLE_EQ(command.json()["q"][0], 0.0);
+}
+
+TEST(DynamicsCommand, RefusesAStateOfTheWrongSize) {
+  Command command({bin("mixloop"), "dynamics", robot(), "--psi", "1,2", "--json"});
+  ASSERT_EQ(command.wait(), 2);
+  EXPECT_EQ(command.json()["error"]["where"], "--psi:1:1");
+}
+
+}  // namespace
+}  // namespace mixloop

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// The plant's side of lockstep, answered by a scripted controller.
+#include "runtime/protocol/lockstep_plant.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "notation/errors.hpp"
+#include "tests/runtime/protocol/scripted_peer.hpp"
+
+namespace mixloop {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Plant : public testing::Test {
+ protected:
+  static PlantOptions options(std::int64_t last_tick) {
+    return {.n = kScriptN, .last_tick = last_tick, .session = kScriptSession, .config = kScriptConfig};
+  }
+  void start(const PlantOptions& o) { plant_.emplace(o, side()); }
+
+  PlantSide side() {
+    PlantSide side;
+    side.measure = [this](std::int64_t tick, std::span<double> psi, std::span<double>) {
+      psi[0] = static_cast<double>(tick);
+      return tick == stale_at_;
+    };
+    side.advance = [this](std::int64_t tick, std::span<const double> tau) {
+      applied_.push_back(tau[0]);
+      return tick != breaks_at_;
+    };
+    side.truth = [](std::int64_t tick, truth_t& t) { t.work = static_cast<double>(tick); };
+    return side;
+  }
+  command_t command(std::int64_t tick, double tau = 0) {
+    auto c = ScriptedPeer::message<command_t>(tick);
+    c.tau_commanded[0] = tau;
+    return c;
+  }
+  /// The first STATE of a tick; repeated ones of earlier ticks are passed over.
+  std::optional<state_t> first_state(std::int64_t tick) {
+    std::optional<state_t> s;
+    do s = script_.next<state_t>("STATE");
+    while (s && s->seq < tick);
+    return s;
+  }
+  void expect_state(std::int64_t tick) {
+    const auto s = first_state(tick);
+    ASSERT_TRUE(s) << "no state " << tick;
+    EXPECT_EQ(s->seq, tick);
+    EXPECT_EQ(s->utime, 1000 * tick);
+    EXPECT_EQ(s->session, kScriptSession);
+    EXPECT_EQ(s->psi_measured[0], static_cast<double>(tick));
+  }
+  void expect_end(std::int8_t reason, std::int64_t tick) {
+    for (int i = 0; i < 2; ++i) {  // at least twice, should one get lost
+      const auto end = script_.next<sim_control_t>("SIM_CONTROL");
+      ASSERT_TRUE(end);
+      EXPECT_EQ(end->action, sim_control_t::ACTION_END);
+      EXPECT_EQ(end->reason, reason);
+      EXPECT_EQ(end->seq, tick);
+      EXPECT_EQ(end->session, kScriptSession);
+    }
+  }
+
+  std::vector<double> applied_;
+  std::int64_t breaks_at_ = -1, stale_at_ = -1;
+  ScriptedPeer script_{"STATE", "TRUTH", "SIM_CONTROL"};
+  std::optional<RunningPeer<LockstepPlant>> plant_;
+};
+
+TEST_F(Plant, runs_from_tick_0_to_the_last_and_ends_all) {
+  start(options(2));
+  for (std::int64_t k = 0; k <= 2; ++k) {
+    expect_state(k);
+    script_.send("COMMAND", command(k, 10.0 + static_cast<double>(k)));
+  }
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  expect_end(sim_control_t::REASON_FINISHED, 2);
+  EXPECT_EQ(applied_, (std::vector<double>{10, 11, 12}));
+  EXPECT_EQ(plant_->peer.report().ticks_done, 3);
+  EXPECT_EQ(plant_->peer.report().round_trip.count(), 2U);
+  EXPECT_TRUE(script_.silent("TRUTH")) << "nobody asked for it";
+}
+
+TEST_F(Plant, repeats_the_state_while_no_command_comes) {
+  start(options(1));
+  const auto first = script_.next_bytes("STATE");
+  EXPECT_EQ(script_.next_bytes("STATE"), first);
+  script_.send("COMMAND", command(0));
+  expect_state(1);
+  EXPECT_TRUE(script_.next_bytes("STATE")) << "STATE(1) again";
+  script_.send("COMMAND", command(1));
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  EXPECT_GE(plant_->peer.report().resent_at_start, 1U);
+  EXPECT_GE(plant_->peer.report().resent, 1U);
+}
+
+TEST_F(Plant, takes_only_the_command_that_answers_its_tick) {
+  start(options(1));
+  expect_state(0);
+  const auto spoil = [this](std::int64_t tick, auto change) {
+    auto c = command(tick, 666);
+    change(c);
+    script_.send("COMMAND", c);
+  };
+  spoil(0, [](command_t& c) { c.session = 1; });
+  spoil(1, [](command_t&) {});
+  spoil(-1, [](command_t&) {});
+  spoil(0, [](command_t& c) { c.tau_commanded[2] = -INFINITY; });
+  spoil(0, [](command_t& c) { c = blank<command_t>(2); });
+  script_.send("COMMAND", ScriptedPeer::message<state_t>(0));
+  script_.bus.publish(script_.bus.channel("COMMAND"), std::vector<std::uint8_t>(20));
+  script_.send("COMMAND", command(0, 1));
+  script_.send("COMMAND", command(0, 666));  // doubled
+  expect_state(1);
+  spoil(1, [](command_t& c) { c.config ^= 1; });  // too late to refuse this controller: it had agreed
+  script_.send("COMMAND", command(1, 2));
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  EXPECT_EQ(applied_, (std::vector<double>{1, 2}));
+  const Rejects& r = plant_->peer.report().rejects;
+  EXPECT_EQ(r.session, 1U);
+  EXPECT_EQ(r.tick, 1U);
+  EXPECT_EQ(r.stale, 2U);
+  EXPECT_EQ(r.not_finite, 1U);
+  EXPECT_EQ(r.dimension, 1U);
+  EXPECT_EQ(r.fingerprint, 1U);
+  EXPECT_EQ(r.length, 1U);
+  EXPECT_EQ(r.config, 1U);
+}
+
+TEST_F(Plant, refuses_a_controller_that_was_started_with_something_else_by_name) {
+  start(options(1));
+  expect_state(0);
+  auto c = command(0);
+  c.config ^= 1LL << 32;
+  for (int i = 0; i < 3; ++i) script_.send("COMMAND", c);
+  const std::string fault = plant_->fault();
+  EXPECT_THAT(fault, StartsWith("config_mismatch: "));
+  EXPECT_THAT(fault, HasSubstr("MIXLOOP_COMMAND was started with another mechanism"));
+  expect_end(sim_control_t::REASON_FAULT, 0);
+}
+
+TEST_F(Plant, publishes_the_truth_of_every_tick_when_asked) {
+  PlantOptions o = options(1);
+  o.truth = true;
+  start(o);
+  expect_state(0);
+  script_.send("COMMAND", command(0));
+  expect_state(1);
+  script_.send("COMMAND", command(1));
+  for (const std::int64_t tick : {0, 1}) {
+    const auto t = script_.next<truth_t>("TRUTH");
+    ASSERT_TRUE(t);
+    EXPECT_EQ(t->seq, tick);
+    EXPECT_EQ(t->work, static_cast<double>(tick));
+  }
+}
+
+TEST_F(Plant, says_at_which_tick_a_reading_is_stale) {
+  stale_at_ = 1;
+  start(options(2));
+  for (std::int64_t k = 0; k <= 2; ++k) {
+    const auto s = first_state(k);
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->flags & state_t::FLAG_STALE, k == 1 ? state_t::FLAG_STALE : 0) << k;
+    script_.send("COMMAND", command(k));
+  }
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+}
+
+TEST_F(Plant, publishes_nothing_of_the_tick_that_diverges) {
+  breaks_at_ = 1;
+  start(options(9));
+  expect_state(0);
+  script_.send("COMMAND", command(0));
+  expect_state(1);
+  script_.send("COMMAND", command(1));
+  EXPECT_EQ(plant_->ending(), Ending::broken_off);
+  expect_end(sim_control_t::REASON_FAULT, 1);
+  for (auto s = script_.next<state_t>("STATE", kScriptSilence); s;
+       s = script_.next<state_t>("STATE", kScriptSilence))
+    EXPECT_LE(s->seq, 1);
+}
+
+TEST_F(Plant, names_the_channel_that_it_waited_for_in_vain) {
+  PlantOptions o = options(1);
+  o.patience = 100ms;
+  start(o);
+  expect_state(0);
+  script_.send("COMMAND", command(0));
+  const std::string fault = plant_->fault();
+  EXPECT_THAT(fault, StartsWith("lost_peer: no answer to tick 1 on MIXLOOP_COMMAND for 100 ms"));
+  EXPECT_THAT(fault, HasSubstr("MIXLOOP_REFERENCE is silent too"));
+  expect_end(sim_control_t::REASON_FAULT, 0);
+}
+
+TEST_F(Plant, says_that_the_controller_is_missing_where_the_planner_answers) {
+  PlantOptions o = options(1);
+  o.first_wait = 1200ms;
+  start(o);
+  while (plant_->running()) {
+    script_.send_reference(0);
+    std::this_thread::sleep_for(5ms);
+  }
+  EXPECT_THAT(plant_->fault(), HasSubstr("MIXLOOP_REFERENCE answers, so the controller is missing"));
+}
+
+TEST_F(Plant, honours_a_stop_from_anyone_even_a_malformed_one) {
+  start(options(9));
+  expect_state(0);
+  script_.bus.publish(script_.bus.channel("STOP"), {});
+  EXPECT_EQ(plant_->ending(), Ending::stopped);
+  expect_end(sim_control_t::REASON_STOPPED, 0);
+}
+
+TEST_F(Plant, ends_all_when_interrupted) {
+  start(options(9));
+  expect_state(0);
+  plant_->stop.turn();
+  EXPECT_EQ(plant_->ending(), Ending::interrupted);
+  expect_end(sim_control_t::REASON_INTERRUPTED, 0);
+}
+
+TEST_F(Plant, that_holds_goes_on_past_the_last_tick_and_has_finished_when_stopped) {
+  PlantOptions o = options(0);
+  o.hold = true;
+  start(o);
+  for (std::int64_t k = 0; k < 3; ++k) {
+    const auto s = first_state(k);
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->flags, state_t::FLAG_HOLD);
+    script_.send("COMMAND", command(k));
+  }
+  plant_->stop.turn();
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+}
+
+TEST_F(Plant, keeps_to_the_pace_that_it_is_given) {
+  PlantOptions o = options(20);
+  o.speed = 1;
+  plant_.emplace(o, side());
+  Instant first{0}, last{0};
+  for (std::int64_t k = 0; k <= 20; ++k) {
+    ASSERT_TRUE(first_state(k));
+    (k == 0 ? first : last) = now();
+    script_.send("COMMAND", command(k));
+  }
+  EXPECT_GE(last - first, 20ms) << "20 ticks of 1 ms from the first command on, which comes after `first`";
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+}
+
+}  // namespace
+}  // namespace mixloop

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// The plant's side of real time, answered by a scripted controller. Slow ticks (40 ms), so that a busy
+// machine changes nothing.
+#include "runtime/protocol/real_time_plant.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "notation/errors.hpp"
+#include "tests/support/command.hpp"
+#include "tests/runtime/protocol/scripted_peer.hpp"
+
+namespace mixloop {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+class RealTime : public testing::Test {
+ protected:
+  struct Taken {
+    std::int64_t tick, in_tick, offset;
+    double tau;
+  };
+
+  static PlantOptions options(std::int64_t last_tick) {
+    return {.n = kScriptN,
+            .last_tick = last_tick,
+            .rate_hz = 25,
+            .speed = 1,
+            .session = kScriptSession,
+            .config = kScriptConfig,
+            .max_missed = 5};
+  }
+  void start(const PlantOptions& o) { plant_.emplace(o, side()); }
+
+  PlantSide side() {
+    PlantSide side;
+    side.measure = [](std::int64_t tick, std::span<double> psi, std::span<double>) {
+      psi[0] = static_cast<double>(tick);
+      return false;
+    };
+    side.command = [this](const command_t& c, std::int64_t offset) {
+      taken_.push_back({c.seq, done_, offset, c.tau_commanded[0]});
+    };
+    side.finish_tick = [this](std::int64_t tick) {
+      done_ = tick + 1;
+      return tick != breaks_at_;
+    };
+    side.make_safe = [this](const char* cause) { safe_ = cause; };
+    side.is_safe = [this] { return !safe_.empty(); };
+    side.deadlines = [] { return DeadlineCounts{.missed = 3, .longest_miss = 2, .success_last_100 = 0.97}; };
+    return side;
+  }
+  void send_command(std::int64_t tick, double tau = 0, std::int32_t flags = 0) {
+    auto c = ScriptedPeer::message<command_t>(tick);
+    c.tau_commanded[0] = tau;
+    c.flags = flags;
+    script_.send("COMMAND", c);
+  }
+  void send_control(std::int8_t action, std::int64_t seq = 0) {
+    auto control = ScriptedPeer::message<sim_control_t>(0);
+    control.seq = seq;
+    control.action = action;
+    script_.send("SIM_CONTROL", control);
+  }
+  state_t state(std::int64_t tick) {
+    std::optional<state_t> s;
+    do s = script_.next<state_t>("STATE");
+    while (s && s->seq < tick);
+    EXPECT_TRUE(s && s->seq == tick) << "no state " << tick;
+    return s.value_or(blank<state_t>(kScriptN));
+  }
+
+  std::vector<Taken> taken_;
+  std::atomic<std::int64_t> done_ = 0;  // also read while the plant runs
+  std::int64_t breaks_at_ = -1;
+  std::string safe_;
+  ScriptedPeer script_{"STATE", "SIM_CONTROL", "TIMING"};
+  std::optional<RunningPeer<RealTimePlant>> plant_;
+};
+
+TEST_F(RealTime, waits_for_the_first_command_and_for_no_other) {
+  start(options(8));
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(state(0).flags, state_t::FLAG_REAL_TIME);
+  EXPECT_EQ(done_, 0);
+  const Instant began = now();
+  send_command(0, 1);
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  EXPECT_GE(now() - began, 320ms) << "9 ticks of 40 ms, the first one begun";
+  EXPECT_EQ(done_, 9);
+  ASSERT_EQ(taken_.size(), 1U);
+  EXPECT_EQ(taken_[0].tick, 0);
+  EXPECT_EQ(plant_->peer.report().wake_up.count(), 9U);
+}
+
+TEST_F(RealTime, says_when_in_its_tick_a_command_arrived) {
+  start(options(3));
+  state(0);
+  send_command(0, 1);
+  state(1);
+  std::this_thread::sleep_for(3ms);
+  send_command(1, 2);
+  state(2);
+  send_command(2, 3);
+  state(3);
+  send_command(3, 4);
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  ASSERT_EQ(taken_.size(), 4U);
+  for (std::size_t k = 1; k < 4; ++k) {
+    EXPECT_EQ(taken_[k].tick, static_cast<std::int64_t>(k));
+    EXPECT_EQ(taken_[k].in_tick, taken_[k].tick);
+    EXPECT_EQ(taken_[k].tau, static_cast<double>(k + 1));
+    EXPECT_LT(taken_[k].offset, 40'000'000);
+  }
+  EXPECT_GE(taken_[1].offset, 3'000'000);
+  EXPECT_EQ(plant_->peer.report().round_trip.count(), 3U);
+}
+
+TEST_F(RealTime, counts_offsets_in_plant_time) {
+  PlantOptions o = options(1);
+  o.speed = 0.5;
+  start(o);
+  state(0);
+  send_command(0);
+  state(1);
+  std::this_thread::sleep_for(4ms);
+  send_command(1);
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  ASSERT_EQ(taken_.size(), 2U);
+  EXPECT_GE(taken_[1].offset, 2'000'000) << "4 ms of real time";
+}
+
+TEST_F(RealTime, takes_a_late_command_unless_a_newer_one_came_or_it_is_too_old) {
+  start(options(12));
+  state(0);
+  send_command(0);
+  state(2);
+  send_command(1, 10);  // a tick late
+  send_command(2, 20);
+  state(3);
+  send_command(1, 30);  // older than what is in effect
+  send_command(3, 40);
+  send_command(3, 50);  // doubled
+  send_command(9, 60);  // of a tick to come
+  state(12);
+  send_command(4, 70);  // 8 ticks late, 5 are forgiven
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  std::vector<double> torques;
+  for (const Taken& t : taken_) torques.push_back(t.tau);
+  EXPECT_EQ(torques, (std::vector<double>{0, 10, 20, 40}));
+  EXPECT_EQ(plant_->peer.report().rejects.stale, 3U);
+  EXPECT_EQ(plant_->peer.report().rejects.tick, 1U);
+}
+
+TEST_F(RealTime, goes_into_its_safe_state_where_the_controller_keeps_sending_safe_commands) {
+  start(options(8));
+  for (std::int64_t k = 0; k <= 8; ++k) {
+    const bool safe = (state(k).flags & state_t::FLAG_SAFE_STATE) != 0;
+    EXPECT_EQ(safe, k > 5) << k;  // the sixth in a row brings it
+    send_command(k, 0, command_t::FLAG_SAFE);
+  }
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  EXPECT_THAT(safe_, HasSubstr("controller"));
+}
+
+TEST_F(RealTime, is_paused_and_stepped_and_goes_on) {
+  PlantOptions o = options(6);
+  o.paused = true;
+  start(o);
+  state(0);
+  send_command(0);
+  std::this_thread::sleep_for(150ms);
+  EXPECT_EQ(done_, 1) << "tick 0 itself is lived through";
+  send_control(sim_control_t::ACTION_STEP, 2);
+  state(2);
+  std::this_thread::sleep_for(150ms);
+  EXPECT_EQ(done_, 3);
+  send_control(sim_control_t::ACTION_RESUME);
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  EXPECT_EQ(done_, 7);
+  EXPECT_EQ(safe_, "") << "a pause is no suspension";
+  EXPECT_LT(plant_->peer.report().slipped, 150ms) << "a pause is no slip";
+}
+
+// Its controller's answer to the last tick before a pause was late; what it sends while nobody waits isn't taken.
+TEST_F(RealTime, takes_a_command_that_comes_in_a_pause_into_the_next_tick) {
+  PlantOptions o = options(2);
+  o.paused = true;
+  start(o);
+  state(0);
+  send_command(0);
+  send_control(sim_control_t::ACTION_STEP, 1);
+  ASSERT_TRUE(eventually([&] { return done_ == 2; }));  // and COMMAND(1) has not come
+  std::this_thread::sleep_for(20ms);
+  send_command(1, 10);
+  send_command(1, 20, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_AFTERWARDS);
+  std::this_thread::sleep_for(20ms);
+  send_control(sim_control_t::ACTION_RESUME);
+  EXPECT_EQ(plant_->ending(), Ending::finished);
+  ASSERT_EQ(taken_.size(), 2U);
+  EXPECT_EQ(taken_[1].in_tick, 2);
+  EXPECT_EQ(taken_[1].tau, 10);
+  EXPECT_EQ(plant_->peer.report().rejects.stale, 1U);
+}
+
+TEST_F(RealTime, is_reset_by_the_operator_and_tells_which_session_comes_next) {
+  start(options(1000));
+  state(0);
+  send_command(0);
+  state(3);
+  send_control(sim_control_t::ACTION_RESET);
+  EXPECT_EQ(plant_->ending(), Ending::reset);
+  plant_->peer.send_reset(4711);
+  for (;;) {
+    const auto control = script_.next<sim_control_t>("SIM_CONTROL");
+    ASSERT_TRUE(control);
+    EXPECT_EQ(control->action, sim_control_t::ACTION_RESET);
+    if (control->seq == 4711) break;
+  }
+}
+
+TEST_F(RealTime, publishes_its_timing) {
+  start(options(20));
+  state(0);
+  send_command(0);
+  for (std::int64_t k = 1; k <= 12; ++k) {
+    state(k);
+    send_command(k);
+  }
+  const auto timing = script_.next<timing_t>("TIMING");
+  ASSERT_TRUE(timing);
+  EXPECT_EQ(timing->missed, 3);
+  EXPECT_EQ(timing->longest_miss, 2);
+  EXPECT_EQ(timing->success_last_100, 0.97);
+  const auto later = script_.next<timing_t>("TIMING");
+  ASSERT_TRUE(later);
+  EXPECT_GT(later->round_trip_p50, 0);
+  EXPECT_GT(later->wake_up_max, 0);
+}
+
+TEST_F(RealTime, breaks_off_where_the_plant_says_so) {
+  breaks_at_ = 2;
+  start(options(10));
+  state(0);
+  send_command(0);
+  EXPECT_EQ(plant_->ending(), Ending::broken_off);
+  EXPECT_EQ(plant_->peer.report().ticks_done, 2);
+}
+
+TEST_F(RealTime, has_no_speed_max) {
+  Bus bus;
+  const StopSwitch stop;
+  PlantOptions o = options(1);
+  o.speed = 0;
+  EXPECT_THROW(RealTimePlant(bus, stop, o, side()), InputError);
+}
+
+}  // namespace
+}  // namespace mixloop

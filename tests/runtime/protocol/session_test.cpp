@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/protocol/session.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mixloop {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(SessionFollower, takes_the_first_session_that_it_hears) {
+  SessionFollower f(0);
+  EXPECT_FALSE(f.would_follow(0, 5s)) << "0 is no session";
+  EXPECT_TRUE(f.would_follow(7, 5s));
+  EXPECT_TRUE(f.follow(7, 5s));
+  EXPECT_EQ(f.current(), 7);
+  EXPECT_FALSE(f.follow(7, 5s + 1ms)) << "no longer the first";
+}
+
+TEST(SessionFollower, takes_another_only_after_a_second_of_silence) {
+  SessionFollower f(0);
+  f.follow(7, 5s);
+  EXPECT_FALSE(f.would_follow(8, 6s));
+  EXPECT_TRUE(f.would_follow(8, 6s + 1ns));
+  f.follow(7, 6s);
+  EXPECT_FALSE(f.would_follow(8, 6s + 1ns)) << "7 was heard again";
+  EXPECT_TRUE(f.follow(8, 8s));
+  EXPECT_FALSE(f.would_follow(7, 8s));
+}
+
+TEST(SessionFollower, never_leaves_a_given_session) {
+  SessionFollower f(7);
+  EXPECT_EQ(f.current(), 7);
+  EXPECT_FALSE(f.would_follow(8, 100s));
+  EXPECT_TRUE(f.follow(7, 100s));
+  EXPECT_FALSE(f.would_follow(8, 200s));
+}
+
+TEST(Session, drawn_ids_differ_and_are_not_zero) {
+  const auto a = draw_session(), b = draw_session();
+  EXPECT_NE(a, 0);
+  EXPECT_NE(a, b);
+}
+
+}  // namespace
+}  // namespace mixloop

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loop/experiment.hpp"
+#include "mixloop/timing_t.hpp"
+#include "runtime/clock/histogram.hpp"
+#include "runtime/protocol/session.hpp"
+#include "watch/any_message.hpp"
+#include "watch/channel_count.hpp"
+
+namespace mixloop {
+
+/// The channels of the bus, in the order in which they are shown.
+enum class Channel : std::uint8_t { state, reference, command, truth, timing, sim_control, fault, stop };
+inline constexpr std::array kChannels = {Channel::state, Channel::reference, Channel::command,
+                                         Channel::truth, Channel::timing,    Channel::sim_control,
+                                         Channel::fault, Channel::stop};
+/// "STATE" and so on, without the prefix.
+const char* name_of(Channel channel);
+
+/// A value now, and the one of the largest magnitude so far.
+struct Extreme {
+  double now = 0, worst = 0;
+  void add(double value);
+};
+
+struct MotorView {
+  Extreme error;                  ///< desired less measured, rad or m
+  Extreme torque;                 ///< commanded, N m or N
+  std::optional<double> applied;  ///< by TRUTH
+  std::optional<double> limit;    ///< of the experiment
+};
+
+/// Time from message to message as the viewer heard them: its own wake-ups are in it.
+struct Heard {
+  std::uint64_t count = 0;
+  nanoseconds p50{0}, p99{0}, max{0};
+};
+
+/// All that a viewer shows, at one instant.
+struct WatchView {
+  std::vector<ChannelView> channels;
+  std::int64_t session = 0;          ///< 0: no STATE has been heard
+  std::uint64_t other_sessions = 0;  ///< messages of other runs
+  std::int64_t tick = 0;
+  double plant_time = 0;  ///< s
+  bool real_time = false;
+  std::string condition;  ///< silent, on_path, moving_to_start, holding, safe_state, stopped, ended
+  std::string ending;     ///< of `ended`: finished, interrupted, stopped, fault
+  std::vector<std::string> warnings;
+
+  std::string position_source;            ///< "experiment", "truth", or "" where there is no position error
+  std::optional<Extreme> position_error;  ///< m; nothing before the path
+  double worst_at = 0;                    ///< s of plant time
+  std::vector<MotorView> motors;
+  std::optional<timing_t> timing;
+  Heard state_interval, command_after_state;
+};
+
+/// Follows one session at a time by what comes over the bus. The worst is of the session since it was first
+/// heard, without the move to the path's start.
+class Watch {
+ public:
+  /// `prefix` of the channels. With an experiment there are position errors by its kinematics, and limits;
+  /// without one, position errors where TRUTH is sent and there are three motors: else it is not known which
+  /// axes count.
+  Watch(const std::string& prefix, std::optional<Experiment> experiment, Instant start);
+  ~Watch();
+
+  void take(Channel channel, Bytes bytes, Instant at);
+  void forget_the_worst();
+  WatchView view(Instant at);
+  bool heard_state() const { return session_.current() != 0; }
+  bool ended() const { return !ending_.empty(); }  ///< the plant has said END
+
+ private:
+  struct Tick {
+    std::int64_t seq = -1, utime = 0;
+    std::optional<std::vector<double>> psi;
+    std::optional<reference_t> reference;
+    std::optional<std::array<double, 3>> position;
+  };
+
+  void on(const state_t& state, Instant at);
+  void on(const reference_t& reference, Instant at);
+  void on(const command_t& command, Instant at);
+  void on(const truth_t& truth, Instant at);
+  void on(const timing_t& timing, Instant at);
+  void on(const sim_control_t& control, Instant at);
+  template <class Message>
+  bool take_as(Instant at);
+  void begin(const state_t& state);
+  Tick& tick(std::int64_t seq);
+  void compare_motors(Tick& tick);
+  void compare_position(Tick& tick);
+  std::string condition(Instant at) const;
+  std::vector<std::string> warnings() const;
+
+  std::optional<Experiment> experiment_;
+  std::unique_ptr<Dynamics> kinematics_;
+  std::vector<ChannelCount> counts_;
+  AnyMessage message_;
+  SessionFollower session_{0};
+  std::size_t n_ = 0;
+  std::vector<Tick> ticks_;
+  std::int64_t latest_ = -1, latest_command_ = -1;
+  Instant state_at_{0};
+  std::int32_t state_flags_ = 0, command_flags_ = 0, truth_flags_ = 0;
+  std::int8_t phase_ = 0;
+  std::int64_t config_ = 0;
+  double plant_time_ = 0;
+  bool stopped_ = false;
+  std::string ending_;
+  std::uint64_t other_sessions_ = 0;
+  std::optional<Extreme> position_error_;
+  double worst_at_ = 0;
+  std::vector<MotorView> motors_;
+  std::optional<timing_t> timing_;
+  Histogram intervals_, answers_;
+};
+
+}  // namespace mixloop
