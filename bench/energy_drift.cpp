@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The paper's robot let go at the path's start, without friction: how far its energy drifts, and what that costs.
+// The paper's robot let go at the path's start, without friction: how far its energy drifts, and what that
+// costs.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,8 +23,9 @@ class FreeRobot {
   FreeRobot() {
     const Experiment paper = load_experiment(std::filesystem::path(MIXLOOP_EXPERIMENTS) / "paper.yaml", {});
     start_ = make_plan(paper).at(0).psi;
-    dynamics_ = std::make_unique<Dynamics>(paper.scene, paper.parameters, Evaluation::machine_code,
-                                           std::initializer_list<Purpose>{Purpose::forward_dynamics, Purpose::energy});
+    dynamics_ = std::make_unique<Dynamics>(
+        paper.scene, paper.parameters, Evaluation::machine_code,
+        std::initializer_list<Purpose>{Purpose::forward_dynamics, Purpose::energy});
   }
 
   Vector start() const {
@@ -68,13 +70,13 @@ void swing(const char* name, double h, double duration) {
       worst = std::max(worst, std::abs(E - begin));
     }
     last = robot.energy(x)[1] - begin;
-    std::printf("  %9.0f s  drift %+.2e  largest %.2e\n", static_cast<double>(row + 1) * duration / rows, last / kinetic,
-                worst / kinetic);
+    std::printf("  %9.0f s  drift %+.2e  largest %.2e\n", static_cast<double>(row + 1) * duration / rows,
+                last / kinetic, worst / kinetic);
     std::fflush(stdout);
   }
   const double seconds = cpu_seconds() - clock;
-  std::printf("| %s | %g ms | %.0f s | %.1e | %.1e | %.1f s | %.0f |\n", name, h * 1e3, duration, std::abs(last) / kinetic,
-              worst / kinetic, seconds, duration / seconds);
+  std::printf("| %s | %g ms | %.0f s | %.1e | %.1e | %.1f s | %.0f |\n", name, h * 1e3, duration,
+              std::abs(last) / kinetic, worst / kinetic, seconds, duration / seconds);
   std::fflush(stdout);
 }
 
@@ -84,10 +86,12 @@ void swing(const char* name, double h, double duration) {
 int main(int argc, char** argv) {
   using namespace mixloop;
   using namespace mixloop::bench;
-  const double duration = argc > 1 ? std::atof(argv[1]) : 1e6, h = argc > 3 ? std::atof(argv[3]) * 1e-3 : 4e-3;
+  const double duration = argc > 1 ? std::atof(argv[1]) : 1e6,
+               h = argc > 3 ? std::atof(argv[3]) * 1e-3 : 4e-3;
   const char* method = argc > 2 ? argv[2] : "dop853";
   if (!(duration > 0 && h > 0)) {
-    std::fprintf(stderr, "mixloop-bench-energy-drift [seconds [dop853|gauss8|gauss12|dormand_prince [step in ms]]]\n");
+    std::fprintf(
+        stderr, "mixloop-bench-energy-drift [seconds [dop853|gauss8|gauss12|dormand_prince [step in ms]]]\n");
     return 2;
   }
   std::printf("%s\n", machine_description().c_str());

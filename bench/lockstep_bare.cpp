@@ -3,8 +3,8 @@
 // checked, encoded or decoded. Plant: STATE, then wait for COMMAND. Planner: REFERENCE for every STATE.
 // Controller: COMMAND for every STATE.
 //   lockstep_bare [TICKS [N [RATE]]]
-// With a RATE in Hz STATE is sent by an absolute clock, and all three take real-time rights as `mixloop run --realtime`
-// does: the floor under real time.
+// With a RATE in Hz STATE is sent by an absolute clock, and all three take real-time rights as `mixloop run
+// --realtime` does: the floor under real time.
 #include <lcm/lcm.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
+#include "runtime/bus/wire.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/histogram.hpp"
 #include "runtime/machine/real_time_rights.hpp"
-#include "runtime/bus/wire.hpp"
 
 namespace {
 

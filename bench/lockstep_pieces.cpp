@@ -5,10 +5,10 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "runtime/bus/wire.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/histogram.hpp"
 #include "runtime/protocol/session.hpp"
-#include "runtime/bus/wire.hpp"
 
 namespace {
 

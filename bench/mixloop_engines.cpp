@@ -45,11 +45,14 @@ std::shared_ptr<Emitted> emitted(const ScenePtr& scene, Purpose purpose, Trigono
   SourceStyle style;
   style.trigonometry = trigonometry;
   std::string complaint;
-  const std::string key = "bench " + std::string(name_of(purpose)) + std::to_string(static_cast<int>(trigonometry)) + scene->canonical;
-  made->library = SharedObject::cached(key, [&] { return source_head(style) + source_of(trace(scene, purpose).program, style); }, complaint);
+  const std::string key = "bench " + std::string(name_of(purpose)) +
+                          std::to_string(static_cast<int>(trigonometry)) + scene->canonical;
+  made->library = SharedObject::cached(
+      key, [&] { return source_head(style) + source_of(trace(scene, purpose).program, style); }, complaint);
   if (!made->library) throw std::runtime_error(complaint);
   made->evaluate = reinterpret_cast<Evaluate>(made->library.symbol(style.prefix));
-  made->k.resize(static_cast<std::size_t>(*static_cast<const int*>(made->library.symbol(style.prefix + "_constants"))));
+  made->k.resize(
+      static_cast<std::size_t>(*static_cast<const int*>(made->library.symbol(style.prefix + "_constants"))));
   const std::vector<double> parameters = scene->default_parameters();
   reinterpret_cast<SetUp>(made->library.symbol(style.prefix + "_set_up"))(parameters.data(), made->k.data());
   return made;
@@ -61,7 +64,8 @@ Engine emitted_engine(std::string name, const ScenePtr& scene, Trigonometry trig
   Engine engine;
   engine.name = std::move(name);
   const auto run = [&](Purpose purpose) {
-    return [program = emitted(scene, purpose, trigonometry)](const double* psi, const double* psid, const double* input, double* out) {
+    return [program = emitted(scene, purpose, trigonometry)](const double* psi, const double* psid,
+                                                             const double* input, double* out) {
       program->evaluate(psi, psid, input, 0.0, program->k.data(), out);
     };
   };
@@ -76,7 +80,8 @@ Engine emitted_engine(std::string name, const ScenePtr& scene, Trigonometry trig
   engine.mass_times = [times = run(Purpose::mass_times)](const State& state, Triple& force) {
     times(state.psi.data(), nullptr, state.tau.data(), force.data());
   };
-  engine.forward_and_mass_times = [both = run(Purpose::dynamics_and_mass_times)](const State& state, Triple& psidd, Triple& force) {
+  engine.forward_and_mass_times = [both = run(Purpose::dynamics_and_mass_times)](
+                                      const State& state, Triple& psidd, Triple& force) {
     double in[6], out[6];
     for (std::size_t k = 0; k < 3; ++k) in[k] = in[k + 3] = state.tau[k];
     both(state.psi.data(), state.psid.data(), in, out);
@@ -117,14 +122,16 @@ Engine through_dynamics(const ScenePtr& scene, Evaluation how) {
 /// The states in lanes belong to the caller's layout and aren't timed, as for the hand-tuned lanes.
 Engine in_lanes(const ScenePtr& scene) {
   std::string complaint;
-  const std::shared_ptr<LaneCode> code = LaneCode::load("bench" + scene->canonical, [&] { return trace(scene, Purpose::forward_dynamics).program; }, complaint);
+  const std::shared_ptr<LaneCode> code = LaneCode::load(
+      "bench" + scene->canonical, [&] { return trace(scene, Purpose::forward_dynamics).program; }, complaint);
   if (!code) throw std::runtime_error(complaint);
   code->set_up(scene->default_parameters());
   const auto width = static_cast<std::size_t>(code->width());
   Engine engine;
   engine.name = "mixloop, machine code, " + std::to_string(width) + " lanes";
-  engine.forward_all = [=, in = std::vector<double>(), out = std::vector<double>(), known = static_cast<const State*>(nullptr)](
-                           const std::vector<State>& states, std::vector<Triple>& psidd) mutable {
+  engine.forward_all = [=, in = std::vector<double>(), out = std::vector<double>(),
+                        known = static_cast<const State*>(nullptr)](const std::vector<State>& states,
+                                                                    std::vector<Triple>& psidd) mutable {
     const std::size_t blocks = states.size() / width, size = 9 * width;
     if (known != states.data()) {
       known = states.data();
@@ -155,10 +162,13 @@ Engine in_lanes(const ScenePtr& scene) {
 void add_mixloop(Engines& engines) {
   const auto scene = std::make_shared<const Scene>(load_scene(MIXLOOP_SCENES "/mixed_loop_robot.yaml"));
   const ScenePtr folded = with_payload_folded();
-  engines.push_back(emitted_engine("mixloop, machine code, C library sincos", folded, Trigonometry::c_library));
-  engines.push_back(emitted_engine("mixloop, machine code, C library sincos, payload a parameter", scene, Trigonometry::c_library));
+  engines.push_back(
+      emitted_engine("mixloop, machine code, C library sincos", folded, Trigonometry::c_library));
+  engines.push_back(emitted_engine("mixloop, machine code, C library sincos, payload a parameter", scene,
+                                   Trigonometry::c_library));
   engines.push_back(emitted_engine("mixloop, machine code, inlined sincos", folded, Trigonometry::inlined));
-  engines.push_back(emitted_engine("mixloop, machine code, inlined sincos, payload a parameter", scene, Trigonometry::inlined));
+  engines.push_back(emitted_engine("mixloop, machine code, inlined sincos, payload a parameter", scene,
+                                   Trigonometry::inlined));
   engines.push_back(in_lanes(folded));
   for (const Evaluation how : {Evaluation::machine_code, Evaluation::interpreter, Evaluation::reference})
     engines.push_back(through_dynamics(scene, how));

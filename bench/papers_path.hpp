@@ -14,8 +14,8 @@ struct MotorReference {
   Vec<T> psi{3}, psid{3}, psidd{3};
 };
 
-/// psi_d, psi_d', psi_d'' at time t of the line from (0.3, 0, 0.8) to (-0.3, 0.4, 0.3) m in 1 s by the cycloid (34),
-/// elbow q5 > 0: closed inverse kinematics on a Taylor series in t.
+/// psi_d, psi_d', psi_d'' at time t of the line from (0.3, 0, 0.8) to (-0.3, 0.4, 0.3) m in 1 s by the
+/// cycloid (34), elbow q5 > 0: closed inverse kinematics on a Taylor series in t.
 template <class T>
 MotorReference<T> papers_reference(const T& t) {
   using S = Taylor<T>;

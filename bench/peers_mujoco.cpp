@@ -134,7 +134,8 @@ class MujocoRobot {
     model_->opt.integrator = mjINT_RK4;
     model_->opt.timestep = length / steps;
     for (int step = 0; step < steps; ++step) mj_step(model_, data_);
-    state.psi = motor_acceleration(data_->qpos[0], data_->qpos[1], data_->qpos[3]);  // linear: serves positions too
+    state.psi =
+        motor_acceleration(data_->qpos[0], data_->qpos[1], data_->qpos[3]);  // linear: serves positions too
     state.psid = motor_acceleration(data_->qvel[0], data_->qvel[1], data_->qvel[3]);
   }
 
@@ -189,7 +190,9 @@ void add_mujoco(Engines& engines) {
   own.name = version + ", couplings as its equality constraints";
   own.tolerance = 5e-2;  // its constraints are soft: what its stiffest settings leave (median 1e-3)
   own.forward = [coupled](const State& state, Triple& psidd) { coupled->constrained(state, psidd); };
-  own.own_tick = [coupled](State& state, double length, int steps) { coupled->own_steps(state, length, steps); };
+  own.own_tick = [coupled](State& state, double length, int steps) {
+    coupled->own_steps(state, length, steps);
+  };
   engines.push_back(std::move(own));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Error against CPU time for every integrator, step and way of evaluation, and for the peers: one table of points.
+// Error against CPU time for every integrator, step and way of evaluation, and for the peers: one table of
+// points.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,7 +23,8 @@ double cpu_seconds() {
 /// The project's own plant and controller over a problem.
 class Runner {
  public:
-  Runner(const Case& problem, PlantSettings settings, Evaluation how) : case_(problem), n_(problem.psi0.size()) {
+  Runner(const Case& problem, PlantSettings settings, Evaluation how)
+      : case_(problem), n_(problem.psi0.size()) {
     Experiment experiment = problem.experiment;
     experiment.evaluation = how;
     settings.continuous = problem.drive == Case::Drive::continuous;
@@ -90,7 +92,8 @@ class Bench {
     for (const Method method : {Method::rk4, Method::dop853})
       for (const Evaluation how : {Evaluation::interpreter, Evaluation::reference})
         own_curve(problem, facts(method), how);
-    const Keep keep = [&](const std::string& curve, const std::string& setting, const std::function<Samples()>& run) {
+    const Keep keep = [&](const std::string& curve, const std::string& setting,
+                          const std::function<Samples()>& run) {
       take(problem, curve, setting, [&] { return run; });
     };
     sundials_points(problem, keep);
@@ -105,12 +108,14 @@ class Bench {
     const bool slow = how == Evaluation::reference;
     for (int substeps = 1; substeps <= (slow ? 4 : method.order < 3 ? 128 : 32); substeps *= 2)
       own_point(problem, curve, {.integrator = method.method, .substeps = substeps}, how);
-    if (!method.error_control || problem.drive == Case::Drive::continuous || how != Evaluation::machine_code) return;
+    if (!method.error_control || problem.drive == Case::Drive::continuous || how != Evaluation::machine_code)
+      return;
     for (const double error : {1e-3, 1e-6, 1e-9, 1e-12, 1e-14})
       own_point(problem, curve + ", error control", {.integrator = method.method, .local_error = error}, how);
   }
 
-  void own_point(const Case& problem, const std::string& curve, const PlantSettings& settings, Evaluation how) {
+  void own_point(const Case& problem, const std::string& curve, const PlantSettings& settings,
+                 Evaluation how) {
     char setting[40];
     if (settings.local_error > 0)
       std::snprintf(setting, sizeof setting, "local_error %.0e", settings.local_error);
@@ -123,7 +128,8 @@ class Bench {
   }
 
   template <class Prepare>
-  void take(const Case& problem, const std::string& curve, const std::string& setting, const Prepare& prepare) {
+  void take(const Case& problem, const std::string& curve, const std::string& setting,
+            const Prepare& prepare) {
     Point point{problem.name, curve, setting, 0, HUGE_VAL};
     for (int repeat = 0; repeat < repeats_; ++repeat) {
       const std::function<Samples()> run = prepare();
@@ -135,7 +141,8 @@ class Bench {
       if (!std::isfinite(point.error) || (repeat > 1 && seconds > 0.03)) break;
     }
     if (!std::isfinite(point.error)) return;
-    out_ << problem.name << '\t' << curve << '\t' << setting << '\t' << point.error << '\t' << point.cpu << std::endl;
+    out_ << problem.name << '\t' << curve << '\t' << setting << '\t' << point.error << '\t' << point.cpu
+         << std::endl;
   }
 
   int repeats_;
@@ -146,7 +153,8 @@ class Bench {
 int run(int argc, char** argv) {
   const auto cases = all_cases();
   const auto wanted = [&](const Case& problem, int from) {
-    return argc <= from || std::any_of(argv + from, argv + argc, [&](const char* name) { return problem.name == name; });
+    return argc <= from ||
+           std::any_of(argv + from, argv + argc, [&](const char* name) { return problem.name == name; });
   };
   if (argc > 1 && std::strcmp(argv[1], "--converge") == 0) {
     for (const Case& problem : cases)
@@ -154,9 +162,10 @@ int run(int argc, char** argv) {
     return 0;
   }
   if (argc < 2) {
-    std::fprintf(stderr,
-                 "mixloop-bench-work-precision FILE [problem...]       writes the points, tab-separated\n"
-                 "mixloop-bench-work-precision --converge [problem...]  works the converged motions out again\n");
+    std::fprintf(
+        stderr,
+        "mixloop-bench-work-precision FILE [problem...]       writes the points, tab-separated\n"
+        "mixloop-bench-work-precision --converge [problem...]  works the converged motions out again\n");
     return 2;
   }
   Bench bench(7, argv[1]);

@@ -11,8 +11,8 @@
 
 namespace mixloop::bench {
 
-/// A motion with a known end: ticks with the torque held, by a controller or from a table, or control evaluated
-/// continuously.
+/// A motion with a known end: ticks with the torque held, by a controller or from a table, or control
+/// evaluated continuously.
 struct Case {
   enum class Drive { closed_loop, continuous, table };
   std::string name, title;
@@ -20,7 +20,7 @@ struct Case {
   Experiment experiment;  ///< of a closed loop; else only its scene, parameters and rate count
   std::vector<double> psi0, psid0;
   int ticks = 1000, sample_every = 20;
-  bool papers_robot = true;                                   ///< the peers have a model of it
+  bool papers_robot = true;                                    ///< the peers have a model of it
   std::function<void(int k, std::span<double> tau)> torque{};  ///< of tick k, where there is no controller
   int converged_steps[2] = {2, 1};  ///< of DOP853 and Gauss of order 12 a tick, in 113 bits
 
@@ -38,8 +38,8 @@ Samples converged_samples(const Case& problem);
 /// Works them out in 113 bits by two methods and writes the file; says on how many digits they agree.
 void converge(const Case& problem);
 
-/// The largest difference of a number from the converged one, as a share of the largest size that it has over the
-/// samples; not finite where a run broke down.
+/// The largest difference of a number from the converged one, as a share of the largest size that it has over
+/// the samples; not finite where a run broke down.
 double error_of(const Samples& samples, const Samples& converged);
 
 struct Point {
@@ -49,7 +49,8 @@ struct Point {
 };
 
 /// Forward dynamics of the peers and their tick loops; each calls `keep` with a point.
-using Keep = std::function<void(const std::string& curve, const std::string& setting, const std::function<Samples()>&)>;
+using Keep = std::function<void(const std::string& curve, const std::string& setting,
+                                const std::function<Samples()>&)>;
 void sundials_points(const Case& problem, const Keep& keep);
 void peer_points(const Case& problem, const Keep& keep);
 

@@ -20,7 +20,9 @@ Experiment of_scene(const NodePtr& document, double rate_hz) {
   return experiment;
 }
 
-NodePtr papers_robot() { return read_document(std::filesystem::path(MIXLOOP_SCENES) / "mixed_loop_robot.yaml"); }
+NodePtr papers_robot() {
+  return read_document(std::filesystem::path(MIXLOOP_SCENES) / "mixed_loop_robot.yaml");
+}
 
 /// Six revolute joints of a Puma's shape, bodies of decreasing size.
 constexpr const char* kSerialArm = R"(
@@ -76,8 +78,10 @@ Case serial_arm() {
 
 /// Friction that brings the elbow to rest within a small part of a tick, and a spring beside it.
 Case stiff() {
-  Case stiff{.name = "stiff",
-             .title = "the robot let go with a damper at q5 (4 kN m s/rad) and a spring at q2, 0.1 s in ticks of 1 ms"};
+  Case stiff{
+      .name = "stiff",
+      .title =
+          "the robot let go with a damper at q5 (4 kN m s/rad) and a spring at q2, 0.1 s in ticks of 1 ms"};
   NodePtr document = papers_robot();
   document = override_entry(document, "loads",
                             "[{coordinate: q5, damping: 4000 N m s/rad}, "

@@ -29,7 +29,8 @@ class WideLoop {
         model_(make_model<Wide>(problem.experiment.scene, wide(problem.experiment.plant_parameters))),
         ws_(model_),
         tau_(n_) {
-    if (problem.drive == Case::Drive::closed_loop) plan_ = std::make_unique<Plan>(make_plan(problem.experiment));
+    if (problem.drive == Case::Drive::closed_loop)
+      plan_ = std::make_unique<Plan>(make_plan(problem.experiment));
   }
 
   template <class Method>
@@ -88,7 +89,8 @@ class WideLoop {
       control(x, at.psi, at.psid, at.psidd);
     }
     dx.head(n_) = x.tail(n_);
-    dx.tail(n_) = forward_dynamics<Wide>(model_, part(x, 0), part(x, n_), span_of(std::as_const(tau_)), t, ws_);
+    dx.tail(n_) =
+        forward_dynamics<Wide>(model_, part(x, 0), part(x, n_), span_of(std::as_const(tau_)), t, ws_);
   }
 
   const Case& case_;
@@ -99,7 +101,9 @@ class WideLoop {
   std::unique_ptr<Plan> plan_;
 };
 
-std::string file_of(const Case& problem) { return std::string(MIXLOOP_CONVERGED) + "/" + problem.name + ".txt"; }
+std::string file_of(const Case& problem) {
+  return std::string(MIXLOOP_CONVERGED) + "/" + problem.name + ".txt";
+}
 
 /// The largest difference, as a share of the largest size of each number.
 double disagreement(const WideSamples& a, const WideSamples& b) {
@@ -127,7 +131,8 @@ void converge(const Case& problem) {
       << " ticks, in 113 bits by DOP853 and Gauss collocation of order 12, which differ by " << apart
       << "; mixloop-bench-work-precision --converge " << problem.name << " writes this file\n";
   for (const auto& x : gauss) {
-    for (Eigen::Index i = 0; i < x.size(); ++i) out << (i ? " " : "") << x[i].str(20, std::ios_base::scientific);
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      out << (i ? " " : "") << x[i].str(20, std::ios_base::scientific);
     out << "\n";
   }
   std::printf("%s: the two methods differ by %.1e\n", problem.name.c_str(), apart);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The peers' equations of the paper's robot: integrated by our methods, which is kinder to them than their own (fewer
-// evaluations for the same error), and MuJoCo's own steps.
+// The peers' equations of the paper's robot: integrated by our methods, which is kinder to them than their
+// own (fewer evaluations for the same error), and MuJoCo's own steps.
 #include <array>
 #include <memory>
 
@@ -101,7 +101,8 @@ void peer_points(const Case& problem, const Keep& keep) {
       by.operator()<Dop853<double>>("dop853");
       if (engine.own_tick)
         keep(engine.name + ", its own RK4", setting, [&] {
-          return ticked(problem, drive, [&](State& state) { engine.own_tick(state, problem.tick(), substeps); });
+          return ticked(problem, drive,
+                        [&](State& state) { engine.own_tick(state, problem.tick(), substeps); });
         });
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SUNDIALS on our forward dynamics: CVODE's Adams method with fixed-point iteration, its BDF with Newton and our exact
-// Jacobian, and ARKODE's explicit methods of orders 5 and 8.
+// SUNDIALS on our forward dynamics: CVODE's Adams method with fixed-point iteration, its BDF with Newton and
+// our exact Jacobian, and ARKODE's explicit methods of orders 5 and 8.
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
@@ -41,7 +41,9 @@ struct Plantlike {
   static Dynamics no_dynamics(const Case& c) {
     return Dynamics(c.experiment.scene, c.experiment.plant_parameters, Evaluation::reference, {});
   }
-  std::span<const double> part(const double* x, int from) const { return {x + from, static_cast<std::size_t>(n)}; }
+  std::span<const double> part(const double* x, int from) const {
+    return {x + from, static_cast<std::size_t>(n)};
+  }
 
   void control(double t, const double* x) {
     const auto at = papers_reference<double>(t);
@@ -164,7 +166,8 @@ Samples run(const Case& problem, Plantlike& plant, Kind kind, double tolerance, 
   double* x = solver.state();
   std::copy(problem.psi0.begin(), problem.psi0.end(), x);
   std::copy(problem.psid0.begin(), problem.psid0.end(), x + plant.n);
-  const bool smooth = problem.name == "free" || problem.name == "stiff" || problem.drive == Case::Drive::continuous;
+  const bool smooth =
+      problem.name == "free" || problem.name == "stiff" || problem.drive == Case::Drive::continuous;
   Samples samples;
   for (int k = 0; k < problem.ticks; ++k) {
     const double t = k * problem.tick();
@@ -191,11 +194,12 @@ void sundials_points(const Case& problem, const Keep& keep) {
     Kind kind;
     const char* name;
   };
-  for (const auto& [kind, name] : {Named{Kind::adams, "CVODE Adams on our equations"},
-                                   Named{Kind::bdf, "CVODE BDF on our equations"},
-                                   Named{Kind::erk5, "ARKODE order 5 on our equations"},
-                                   Named{Kind::erk8, "ARKODE order 8 on our equations"}}) {
-    if (kind == Kind::bdf && problem.drive == Case::Drive::continuous) continue;  // the Jacobian is the plant's alone
+  for (const auto& [kind, name] :
+       {Named{Kind::adams, "CVODE Adams on our equations"}, Named{Kind::bdf, "CVODE BDF on our equations"},
+        Named{Kind::erk5, "ARKODE order 5 on our equations"},
+        Named{Kind::erk8, "ARKODE order 8 on our equations"}}) {
+    if (kind == Kind::bdf && problem.drive == Case::Drive::continuous)
+      continue;  // the Jacobian is the plant's alone
     for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}) {
       char setting[40];
       std::snprintf(setting, sizeof setting, "tolerance %.0e", tolerance);

@@ -3,8 +3,8 @@
 
 #include "loop/recorder.hpp"
 #include "loop/result.hpp"
-#include "runtime/bus/wire.hpp"
 #include "processes/bus_line.hpp"
+#include "runtime/bus/wire.hpp"
 
 namespace mixloop {
 namespace {

@@ -5,11 +5,11 @@
 #include <chrono>
 #include <fstream>
 
+#include "commands/commands.hpp"
 #include "dynamics/evaluator.hpp"
 #include "dynamics/program/firmware.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "processes/command_line.hpp"
-#include "commands/commands.hpp"
 
 namespace mixloop {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "commands/commands.hpp"
 #include "loop/result.hpp"
 #include "notation/errors.hpp"
 #include "plant/faults.hpp"
 #include "processes/bus_line.hpp"
-#include "commands/commands.hpp"
 #include "processes/speed.hpp"
 
 namespace mixloop {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <functional>
 
-#include "loop/result.hpp"
-#include "runtime/machine/fitness.hpp"
-#include "processes/bus_line.hpp"
 #include "commands/commands.hpp"
+#include "loop/result.hpp"
+#include "processes/bus_line.hpp"
+#include "runtime/machine/fitness.hpp"
 
 namespace mixloop {
 namespace {

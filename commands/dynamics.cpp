@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "commands/commands.hpp"
 #include "dynamics/procedure/procedure.hpp"
 #include "loop/experiment.hpp"
 #include "notation/value.hpp"
 #include "processes/command_line.hpp"
-#include "commands/commands.hpp"
 
 namespace mixloop {
 namespace {

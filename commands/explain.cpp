@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "commands/commands.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "processes/command_line.hpp"
-#include "commands/commands.hpp"
 
 namespace mixloop {
 namespace {

@@ -6,14 +6,14 @@
 #include <map>
 #include <optional>
 
-#include "loop/result.hpp"
-#include "runtime/bus/log_reader.hpp"
-#include "runtime/machine/stop_switch.hpp"
-#include "watch/any_message.hpp"
-#include "processes/command_line.hpp"
 #include "commands/commands.hpp"
 #include "commands/csv_folder.hpp"
 #include "commands/progress.hpp"
+#include "loop/result.hpp"
+#include "processes/command_line.hpp"
+#include "runtime/bus/log_reader.hpp"
+#include "runtime/machine/stop_switch.hpp"
+#include "watch/any_message.hpp"
 
 namespace mixloop {
 namespace {

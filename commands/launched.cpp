@@ -11,16 +11,16 @@
 #include <cstring>
 #include <optional>
 
-#include "loop/inputs.hpp"
-#include "loop/keep.hpp"
-#include "loop/result.hpp"
-#include "runtime/clock/clock.hpp"
-#include "runtime/bus/log_writer.hpp"
-#include "runtime/bus/multicast_route.hpp"
-#include "runtime/protocol/session.hpp"
 #include "commands/children.hpp"
 #include "commands/progress.hpp"
 #include "commands/warnings.hpp"
+#include "loop/inputs.hpp"
+#include "loop/keep.hpp"
+#include "loop/result.hpp"
+#include "runtime/bus/log_writer.hpp"
+#include "runtime/bus/multicast_route.hpp"
+#include "runtime/clock/clock.hpp"
+#include "runtime/protocol/session.hpp"
 
 namespace mixloop {
 namespace {

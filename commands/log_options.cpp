@@ -9,7 +9,8 @@ void LogOptions::take_experiment() {
   if (!experiment.empty())
     read.experiment = load_experiment(std::filesystem::path(experiment), overrides());
   else if (!sets.empty())
-    throw InputError("command_line", {"--set"}, "overrides an experiment's entries; expected --experiment too");
+    throw InputError("command_line", {"--set"},
+                     "overrides an experiment's entries; expected --experiment too");
 }
 
 void add_log_options(CLI::App& command, LogOptions& options) {

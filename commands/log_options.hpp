@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "report/run_file.hpp"
 #include "processes/command_line.hpp"
+#include "report/run_file.hpp"
 
 namespace mixloop {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "processes/command_line.hpp"
 #include "commands/commands.hpp"
+#include "processes/command_line.hpp"
 
 int main(int argc, char** argv) {
   int status = 0;

@@ -4,12 +4,12 @@
 
 #include <cstdlib>
 
-#include "loop/result.hpp"
-#include "runtime/bus/bus.hpp"
 #include "commands/attached.hpp"
-#include "processes/bus_line.hpp"
 #include "commands/commands.hpp"
 #include "commands/screen.hpp"
+#include "loop/result.hpp"
+#include "processes/bus_line.hpp"
+#include "runtime/bus/bus.hpp"
 #include "watch/watch.hpp"
 #include "watch/watch_text.hpp"
 

@@ -24,8 +24,9 @@ void Progress::at(std::int64_t tick) {
   next_ = now + std::chrono::milliseconds(200);
   drawn_ = true;
   const double part = ticks_ > 0 ? static_cast<double>(tick) / static_cast<double>(ticks_) : 1;
-  fmt::print(stderr, "\r{}: {:.3f} of {:.3f} {} ({:.0f} %)\033[K", name_, static_cast<double>(tick) / per_unit_,
-             static_cast<double>(ticks_) / per_unit_, unit_, 100 * part);
+  fmt::print(stderr, "\r{}: {:.3f} of {:.3f} {} ({:.0f} %)\033[K", name_,
+             static_cast<double>(tick) / per_unit_, static_cast<double>(ticks_) / per_unit_, unit_,
+             100 * part);
   std::fflush(stderr);
 }
 

@@ -7,8 +7,8 @@
 
 namespace mixloop {
 
-/// A line on the terminal that says how far some work is, redrawn a few times a second; silent where stderr is no
-/// terminal and for work that is over within half a second.
+/// A line on the terminal that says how far some work is, redrawn a few times a second; silent where stderr
+/// is no terminal and for work that is over within half a second.
 class Progress {
  public:
   /// `per_unit` of them make a `unit`, in which the line counts.

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <map>
 
+#include "commands/commands.hpp"
+#include "commands/progress.hpp"
 #include "loop/result.hpp"
+#include "processes/bus_line.hpp"
+#include "processes/controller_side.hpp"
 #include "runtime/bus/log_reader.hpp"
 #include "runtime/machine/stop_switch.hpp"
-#include "processes/bus_line.hpp"
-#include "commands/commands.hpp"
-#include "processes/controller_side.hpp"
-#include "commands/progress.hpp"
 
 namespace mixloop {
 namespace {
@@ -83,7 +83,8 @@ class Replay {
     again.utime = state->second.utime;
     const std::int32_t of_the_peer = std::int32_t{command_t::FLAG_JOINED_LATE} | command_t::FLAG_STOPPED |
                                      command_t::FLAG_WITHOUT_REFERENCE | command_t::FLAG_AFTERWARDS;
-    again.flags = (logged.flags & of_the_peer) | answer(state->second, of_the_law ? &reference->second : nullptr);
+    again.flags =
+        (logged.flags & of_the_peer) | answer(state->second, of_the_law ? &reference->second : nullptr);
     if ((logged.flags & command_t::FLAG_AFTERWARDS) != 0) again.flags |= make_safe();
     const Bytes encoded = again_.encode();
     ++result_.commands;

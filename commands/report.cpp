@@ -4,18 +4,18 @@
 #include <fstream>
 #include <sstream>
 
-#include "report/page.hpp"
 #include "commands/children.hpp"
 #include "commands/commands.hpp"
 #include "commands/log_options.hpp"
 #include "commands/web_page.hpp"
+#include "report/page.hpp"
 
 namespace mixloop {
 namespace {
 
 constexpr std::size_t kMostBytes = 9'500'000;
 constexpr std::size_t kMostBuckets = std::size_t{1} << 15;  // a curve, of all runs together
-constexpr std::size_t kMostRuns = 8;  // as many as can be told apart
+constexpr std::size_t kMostRuns = 8;                        // as many as can be told apart
 
 struct Options : LogOptions {
   std::vector<std::string> paths;
@@ -39,8 +39,8 @@ void tell_apart(std::vector<ReportedRun>& runs) {
 std::vector<ReportedRun> read_runs(Options& options) {
   if (options.paths.size() > kMostRuns)
     throw InputError("too_many", {options.paths[kMostRuns]},
-                     fmt::format("{} results; expected at most {}, which can be told apart", options.paths.size(),
-                                 kMostRuns));
+                     fmt::format("{} results; expected at most {}, which can be told apart",
+                                 options.paths.size(), kMostRuns));
   options.take_experiment();
   std::size_t capacity = kMostBuckets;
   while (capacity * options.paths.size() > kMostBuckets) capacity /= 2;
@@ -85,15 +85,20 @@ void add_report_command(CLI::App& app, int& status) {
   command->add_option("results", options->paths, "folders that --out kept, or LCM logs; several are overlaid")
       ->required()
       ->type_name("RESULT_DIR|LOG");
-  command->add_option("--out", options->out, "the page; report.html in the first folder, or LOG's name with .html")
+  command
+      ->add_option("--out", options->out,
+                   "the page; report.html in the first folder, or LOG's name with .html")
       ->type_name("FILE");
   add_log_options(*command, *options);
-  command->add_option("--channel-prefix", options->read.prefix, "of a log's channels, " + options->read.prefix)
+  command
+      ->add_option("--channel-prefix", options->read.prefix, "of a log's channels, " + options->read.prefix)
       ->type_name("PREFIX");
   add_common_options(*command, *options);
   command->footer(
-      "The page holds all that it shows and asks nothing of the network: the paper's figures 2 to 5, tracking error,\n"
-      "coordinates, energy, command ages, inputs, versions and verdicts. Long runs are drawn by the least and the\n"
+      "The page holds all that it shows and asks nothing of the network: the paper's figures 2 to 5, "
+      "tracking error,\n"
+      "coordinates, energy, command ages, inputs, versions and verdicts. Long runs are drawn by the least "
+      "and the\n"
       "greatest of each few ticks, so that no peak is lost.\n"
       "Examples:\n"
       "  mixloop simulate experiments/paper.yaml --out results/paper && mixloop report results/paper\n"

@@ -4,13 +4,13 @@
 
 #include <fstream>
 
-#include "loop/keep.hpp"
-#include "loop/result.hpp"
-#include "runtime/protocol/real_time_plant.hpp"
-#include "processes/bus_line.hpp"
 #include "commands/commands.hpp"
 #include "commands/launched.hpp"
+#include "loop/keep.hpp"
+#include "loop/result.hpp"
+#include "processes/bus_line.hpp"
 #include "processes/speed.hpp"
+#include "runtime/protocol/real_time_plant.hpp"
 
 namespace mixloop {
 namespace {

@@ -56,8 +56,8 @@ Screen::Screen(bool colours) : terminal_(nullptr), colours_(false) {
   curs_set(0);
   colours_ = colours && has_colors();
   if (!colours_) return;
-  // Blue and yellow: told apart by eyes that don't tell red from green. As a ground under black, for as letters
-  // neither stands out on a white terminal.
+  // Blue and yellow: told apart by eyes that don't tell red from green. As a ground under black, for as
+  // letters neither stands out on a white terminal.
   start_color();
   use_default_colors();
   init_pair(kGood, COLOR_BLACK, COLOR_CYAN);

@@ -5,17 +5,17 @@
 
 #include <algorithm>
 
-#include "loop/arrivals.hpp"
-#include "loop/arrivals_file.hpp"
-#include "loop/keep.hpp"
-#include "loop/result.hpp"
-#include "runtime/clock/clock.hpp"
-#include "runtime/machine/stop_switch.hpp"
-#include "processes/command_line.hpp"
 #include "commands/commands.hpp"
 #include "commands/progress.hpp"
 #include "commands/simulated.hpp"
 #include "commands/warnings.hpp"
+#include "loop/arrivals.hpp"
+#include "loop/arrivals_file.hpp"
+#include "loop/keep.hpp"
+#include "loop/result.hpp"
+#include "processes/command_line.hpp"
+#include "runtime/clock/clock.hpp"
+#include "runtime/machine/stop_switch.hpp"
 
 namespace mixloop {
 

@@ -9,10 +9,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "runtime/bus/multicast_route.hpp"
-#include "processes/bus_line.hpp"
 #include "commands/children.hpp"
 #include "commands/commands.hpp"
+#include "processes/bus_line.hpp"
+#include "runtime/bus/multicast_route.hpp"
 
 namespace mixloop {
 namespace {

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "commands/commands.hpp"
 #include "loop/result.hpp"
 #include "plant/hardware.hpp"
+#include "processes/command_line.hpp"
 #include "stability/confirmation.hpp"
 #include "stability/map.hpp"
-#include "processes/command_line.hpp"
-#include "commands/commands.hpp"
 
 namespace mixloop {
 namespace {

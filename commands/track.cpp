@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "loop/result.hpp"
 #include "commands/attached.hpp"
-#include "processes/bus_line.hpp"
 #include "commands/commands.hpp"
 #include "commands/junit.hpp"
 #include "commands/launched.hpp"
 #include "commands/simulated.hpp"
+#include "loop/result.hpp"
+#include "processes/bus_line.hpp"
 
 namespace mixloop {
 namespace {
@@ -27,11 +27,11 @@ struct Options : CommonOptions {
 int exit_status(const nlohmann::json& result) {
   if (result.contains("error")) return result.at("error_status").get<int>();
   const std::string verdict = result.at("verdict");
-  return verdict == "held"       ? kHeld
-         : verdict == "missed"   ? kMissed
-         : verdict == "diverged" ? kRunFault
+  return verdict == "held"         ? kHeld
+         : verdict == "missed"     ? kMissed
+         : verdict == "diverged"   ? kRunFault
          : verdict == "safe_state" ? kRunFault
-                                 : kInterrupted;
+                                   : kInterrupted;
 }
 
 nlohmann::json tracked(const std::string& file, const Options& options, const StopSwitch& stop) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "processes/bus_line.hpp"
 #include "commands/commands.hpp"
 #include "commands/log_options.hpp"
 #include "commands/web_page.hpp"
+#include "processes/bus_line.hpp"
 #include "view/bus_source.hpp"
 #include "view/log_source.hpp"
 #include "view/server.hpp"

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "notation/errors.hpp"
 #include "commands/children.hpp"
+#include "notation/errors.hpp"
 
 namespace mixloop {
 
@@ -17,9 +17,10 @@ std::string web_page(const std::string& name) {
   std::ostringstream text;
   text << in.rdbuf();
   if (!in || text.str().empty())
-    throw RunFault("missing_part", fmt::format("the page {} is missing ({}); it is built where there is Node.js 18 "
-                                               "or later with npm: apt-get install nodejs npm, then build again",
-                                               name, file));
+    throw RunFault("missing_part",
+                   fmt::format("the page {} is missing ({}); it is built where there is Node.js 18 "
+                               "or later with npm: apt-get install nodejs npm, then build again",
+                               name, file));
   return text.str();
 }
 

@@ -8,8 +8,8 @@
 
 namespace mixloop {
 
-/// A method's coefficient as it is printed, a decimal ("-8.298e-3") or a ratio ("-25360/2187"), rounded once in T:
-/// the same tables serve double and wider floats.
+/// A method's coefficient as it is printed, a decimal ("-8.298e-3") or a ratio ("-25360/2187"), rounded once
+/// in T: the same tables serve double and wider floats.
 template <class T>
 T coefficient(std::string_view text) {
   const auto slash = text.find('/');

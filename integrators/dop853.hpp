@@ -5,9 +5,9 @@
 
 namespace mixloop {
 
-/// Dormand and Prince's method of order 8 with Hairer's estimates of order 5 and 3, twelve evaluations a step. Its
-/// coefficients have 30 digits, enough for 113-bit floats to 1e-28. Stable for h lambda in [-6.3937, 0] and
-/// i [-5.9604, 5.9604]. Hairer, Norsett & Wanner, Solving ODEs I, II.5 and the code DOP853.
+/// Dormand and Prince's method of order 8 with Hairer's estimates of order 5 and 3, twelve evaluations a
+/// step. Its coefficients have 30 digits, enough for 113-bit floats to 1e-28. Stable for h lambda in
+/// [-6.3937, 0] and i [-5.9604, 5.9604]. Hairer, Norsett & Wanner, Solving ODEs I, II.5 and the code DOP853.
 struct Dop853Table {
   static constexpr int kStages = 12, kOrder = 8;
   static constexpr const char* kC[kStages] = {"0",
@@ -50,11 +50,13 @@ struct Dop853Table {
        "2.01365400804030348374776537501e-1", "4.47106157277725905176885569043e-2"}
   };
   // clang-format on
-  static constexpr const char* kFifth[8] = {"0.1312004499419488073250102996e-1",  "-0.1225156446376204440720569753e1",
-                                            "-0.4957589496572501915214079952",    "0.1664377182454986536961530415e1",
-                                            "-0.3503288487499736816886487290",    "0.3341791187130174790297318841",
-                                            "0.8192320648511571246570742613e-1",  "-0.2235530786388629525884427845e-1"};
-  static constexpr const char* kThird[3] = {"0.244094488188976377952755905512", "0.733846688281611857341361741547",
+  static constexpr const char* kFifth[8] = {
+      "0.1312004499419488073250102996e-1", "-0.1225156446376204440720569753e1",
+      "-0.4957589496572501915214079952",   "0.1664377182454986536961530415e1",
+      "-0.3503288487499736816886487290",   "0.3341791187130174790297318841",
+      "0.8192320648511571246570742613e-1", "-0.2235530786388629525884427845e-1"};
+  static constexpr const char* kThird[3] = {"0.244094488188976377952755905512",
+                                            "0.733846688281611857341361741547",
                                             "0.220588235294117647058823529412e-1"};
 
   /// |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2), of order 7.

@@ -8,8 +8,8 @@
 
 namespace mixloop {
 
-/// The size of an error e of states (q, v, rest): the largest |e_i| / (1 + |x_i|) over q and v. What `local_error`
-/// bounds: absolute for small numbers, relative for large ones.
+/// The size of an error e of states (q, v, rest): the largest |e_i| / (1 + |x_i|) over q and v. What
+/// `local_error` bounds: absolute for small numbers, relative for large ones.
 template <class T>
 T error_size(const Vec<T>& e, const Vec<T>& x, Eigen::Index n) {
   using std::abs;
@@ -28,12 +28,13 @@ struct StepCount {
   bool finished = false;  ///< false: it would take more than `most` steps, or nothing finite came out
 };
 
-/// Integrates x over `length` in steps that keep the estimated error of each below `tolerance` (Hairer, Norsett &
-/// Wanner, Solving ODEs I, II.4: h' = 0.9 h (tolerance / error)^(1/q), a factor of 0.2 to 6). `rate(t, x, dx)` has t
-/// from the piece's start. Starts afresh with the whole length as its first step; the steps end on `length`.
+/// Integrates x over `length` in steps that keep the estimated error of each below `tolerance` (Hairer,
+/// Norsett & Wanner, Solving ODEs I, II.4: h' = 0.9 h (tolerance / error)^(1/q), a factor of 0.2 to 6).
+/// `rate(t, x, dx)` has t from the piece's start. Starts afresh with the whole length as its first step; the
+/// steps end on `length`.
 template <class Method, class T, class Rate>
-StepCount controlled_steps(Method& method, Vec<T>& x, Eigen::Index n, const T& length, const T& tolerance, int most,
-                           const Rate& rate) {
+StepCount controlled_steps(Method& method, Vec<T>& x, Eigen::Index n, const T& length, const T& tolerance,
+                           int most, const Rate& rate) {
   using std::pow;
   StepCount count;
   const double order = Method::kOrder;

@@ -11,8 +11,8 @@ namespace mixloop {
 
 /// An explicit Runge-Kutta method with an embedded one, for states x and rates x' = f(t, x):
 ///   k_i = f(t + c_i h, x + h sum_j a_ij k_j),  x+ = x + h sum_i b_i k_i
-/// `Table` has kStages, kOrder, kC[i], kA[i][j] (null where zero; row kStages is b), and an `Estimate`. Nothing allocates
-/// after construction.
+/// `Table` has kStages, kOrder, kC[i], kA[i][j] (null where zero; row kStages is b), and an `Estimate`.
+/// Nothing allocates after construction.
 template <class Table, class T>
 class ExplicitRungeKutta {
  public:
@@ -38,8 +38,8 @@ class ExplicitRungeKutta {
     x.swap(next_);
   }
 
-  /// As step, what is rounded away kept in `carry` and given back at the next step (Kahan; Hairer, Lubich & Wanner,
-  /// Geometric Numerical Integration, VIII.5): for many small steps on end.
+  /// As step, what is rounded away kept in `carry` and given back at the next step (Kahan; Hairer, Lubich &
+  /// Wanner, Geometric Numerical Integration, VIII.5): for many small steps on end.
   template <class Rate>
   void compensated_step(Vec<T>& x, Vec<T>& carry, const T& h, const Rate& rate) {
     rate(0, c_[0], x, k_[0]);
@@ -105,7 +105,8 @@ class ExplicitRungeKutta {
     constexpr auto used = columns<I>();
     return [&]<std::size_t... J>(std::index_sequence<J...>) {
       return ((a_[I][used[J]] * k_[used[J]][r]) + ...);
-    }(std::make_index_sequence<used.size()>());
+    }
+    (std::make_index_sequence<used.size()>());
   }
 
   template <std::size_t I>
@@ -118,7 +119,8 @@ class ExplicitRungeKutta {
       const T* from = x.data();
       T* to = out.data();
       for (Eigen::Index r = 0; r < size; ++r) to[r] = from[r] + h * ((a[J] * k[J][r]) + ...);
-    }(std::make_index_sequence<used.size()>());
+    }
+    (std::make_index_sequence<used.size()>());
   }
 
   template <std::size_t I, class Rate>

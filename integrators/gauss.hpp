@@ -10,8 +10,8 @@
 
 namespace mixloop {
 
-/// Nodes and weights of Gauss-Legendre collocation on [0, 1] and the integrals a_ij of its Lagrange polynomials from 0
-/// to c_i (Hairer & Wanner, Solving ODEs II, IV.5), worked out in T.
+/// Nodes and weights of Gauss-Legendre collocation on [0, 1] and the integrals a_ij of its Lagrange
+/// polynomials from 0 to c_i (Hairer & Wanner, Solving ODEs II, IV.5), worked out in T.
 template <class T, std::size_t S>
 struct GaussTable {
   std::array<T, S> c, b;
@@ -59,11 +59,11 @@ struct GaussTable {
   }
 };
 
-/// Collocation at S Gauss points: order 2 S, symmetric, A-stable by its formula; its equations are solved by fixed-point
-/// iteration on the accelerations, which with S = 4 converges to h omega = 4.8 and, of a damper, h lambda = -3.6; past
-/// that the step gives what is not a number. It takes as many sweeps of S evaluations as round-off
-/// asks for, at most kMostSweeps. For long runs that must not drift, and for wide floats (any order).
-/// Hairer, Lubich & Wanner, Geometric Numerical Integration, II.1.3, VIII.6.
+/// Collocation at S Gauss points: order 2 S, symmetric, A-stable by its formula; its equations are solved by
+/// fixed-point iteration on the accelerations, which with S = 4 converges to h omega = 4.8 and, of a damper,
+/// h lambda = -3.6; past that the step gives what is not a number. It takes as many sweeps of S evaluations
+/// as round-off asks for, at most kMostSweeps. For long runs that must not drift, and for wide floats (any
+/// order). Hairer, Lubich & Wanner, Geometric Numerical Integration, II.1.3, VIII.6.
 template <class T, std::size_t S>
 class Gauss {
  public:

@@ -23,8 +23,9 @@ struct IntegratorSettings {
   double local_error = 0;  ///< above 0: the method chooses its steps to keep this error (error_size) in each
 };
 
-/// One method with its workspace, advancing states (q, v, rest) over pieces on which nothing jumps. Each piece starts
-/// afresh: the result depends on the state and the piece alone. Nothing allocates after construction.
+/// One method with its workspace, advancing states (q, v, rest) over pieces on which nothing jumps. Each
+/// piece starts afresh: the result depends on the state and the piece alone. Nothing allocates after
+/// construction.
 class Integrator {
  public:
   /// At most so many steps in a piece under error control; what would take more becomes not a number.
@@ -36,8 +37,9 @@ class Integrator {
 
   const IntegratorSettings& settings() const { return settings_; }
 
-  /// Advances x over `length`. `rate(step, stage, t, x, dx)` writes x' at time t from the piece's start (stage 0 and
-  /// up; -1 under error control); `linearise(t, x, jacobian)` is called by methods that take a Jacobian.
+  /// Advances x over `length`. `rate(step, stage, t, x, dx)` writes x' at time t from the piece's start
+  /// (stage 0 and up; -1 under error control); `linearise(t, x, jacobian)` is called by methods that take a
+  /// Jacobian.
   template <class Rate, class Linearise>
   void advance(Vector& x, double length, const Rate& rate, const Linearise& linearise) {
     std::visit([&](auto& method) { run(method, x, length, rate, linearise); }, steps_);
@@ -49,7 +51,8 @@ class Integrator {
   template <class M>
   static constexpr bool kLinearises = std::is_same_v<M, Rodas3<double>> || std::is_same_v<M, Rodas4<double>>;
   template <class M>
-  static constexpr bool kEstimates = std::is_same_v<M, DormandPrince<double>> || std::is_same_v<M, Dop853<double>>;
+  static constexpr bool kEstimates =
+      std::is_same_v<M, DormandPrince<double>> || std::is_same_v<M, Dop853<double>>;
 
   template <std::size_t I = 0>
   static Any make(Method method, Eigen::Index n, Eigen::Index size) {
@@ -70,7 +73,8 @@ class Integrator {
         rate(step, stage, (step + c) * h, state, dx);
       };
       if constexpr (kLinearises<M>)
-        method.step(x, h, at, [&](const Vector& state, auto& jacobian) { linearise(step * h, state, jacobian); });
+        method.step(x, h, at,
+                    [&](const Vector& state, auto& jacobian) { linearise(step * h, state, jacobian); });
       else
         method.step(x, h, at);
     }

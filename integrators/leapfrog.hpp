@@ -7,10 +7,11 @@ namespace mixloop {
 
 /// Drift, kick, drift: order 2, one evaluation a step and one more at a piece's first.
 ///   q_m = q + h/2 v,  v_m = v + h/2 a',  a = a(q_m, v_m),  v+ = v + h a,  q+ = q_m + h/2 v+
-/// a' is the acceleration of the step before (at the first step a(q_m, v)): it only has a share in forces that
-/// depend on the velocity, and keeps the order there. Without such forces it is the position Verlet scheme, symplectic
-/// (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.4). Stable for oscillations up to h omega = 2;
-/// dampers up to h lambda = -1 over many steps of a piece, -2 for a lone step.
+/// a' is the acceleration of the step before (at the first step a(q_m, v)): it only has a share in forces
+/// that depend on the velocity, and keeps the order there. Without such forces it is the position Verlet
+/// scheme, symplectic (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.4). Stable for
+/// oscillations up to h omega = 2; dampers up to h lambda = -1 over many steps of a piece, -2 for a lone
+/// step.
 template <class T>
 class Leapfrog {
  public:

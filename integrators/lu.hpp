@@ -9,7 +9,8 @@
 
 namespace mixloop {
 
-/// L U = P A in place, with partial pivoting (Golub & Van Loan, 3.4.1); `rows` takes the row that each step chose.
+/// L U = P A in place, with partial pivoting (Golub & Van Loan, 3.4.1); `rows` takes the row that each step
+/// chose.
 template <class T>
 void factor_lu(Mat<T>& A, std::vector<int>& rows) {
   using std::abs;

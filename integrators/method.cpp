@@ -45,17 +45,24 @@ std::vector<std::string> method_names() {
 
 std::vector<double> stage_times(Method method) {
   switch (method) {
-    case Method::semi_implicit_euler: return {0};
-    case Method::leapfrog: return {0.5};
-    case Method::rk4: return {0, 0.5, 0.5, 1};
-    case Method::dormand_prince: return nodes_of<DormandPrinceTable>();
-    case Method::dop853: return nodes_of<Dop853Table>();
+    case Method::semi_implicit_euler:
+      return {0};
+    case Method::leapfrog:
+      return {0.5};
+    case Method::rk4:
+      return {0, 0.5, 0.5, 1};
+    case Method::dormand_prince:
+      return nodes_of<DormandPrinceTable>();
+    case Method::dop853:
+      return nodes_of<Dop853Table>();
     case Method::gauss8: {
       const auto& c = Gauss<double, 4>::table().c;
       return {c.begin(), c.end()};
     }
-    case Method::rodas3: return {0, 0, 1, 1};
-    case Method::rodas4: return {0, 0.386, 0.21, 0.63, 1, 1};
+    case Method::rodas3:
+      return {0, 0, 1, 1};
+    case Method::rodas4:
+      return {0, 0.386, 0.21, 0.63, 1, 1};
   }
   return {};
 }
@@ -69,7 +76,8 @@ StageRows stage_rows(Method method) {
   std::sort(result.at.begin(), result.at.end());
   result.at.erase(std::unique(result.at.begin(), result.at.end()), result.at.end());
   result.rows = static_cast<int>(result.at.size());
-  for (int i = 0; i < result.rows; ++i) result.uniform &= result.at[static_cast<std::size_t>(i)] * result.rows == i;
+  for (int i = 0; i < result.rows; ++i)
+    result.uniform &= result.at[static_cast<std::size_t>(i)] * result.rows == i;
   for (const double c : times)
     result.row.push_back(
         static_cast<int>(std::lower_bound(result.at.begin(), result.at.end(), c) - result.at.begin()));

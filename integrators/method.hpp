@@ -24,11 +24,11 @@ struct MethodFacts {
   Method method;
   std::string_view name;
   int order;
-  int evaluations;       ///< of forward dynamics a step; of gauss8 about, it iterates
-  double damper;         ///< largest -h lambda of a damper x'' = lambda x' that stays stable; HUGE_VAL: any
-  double oscillation;    ///< largest h omega of an oscillation that does; HUGE_VAL: any
-  bool error_control;    ///< has an estimate of its error: may choose its steps
-  bool jacobian;         ///< takes the Jacobian of the forward dynamics, once a step
+  int evaluations;     ///< of forward dynamics a step; of gauss8 about, it iterates
+  double damper;       ///< largest -h lambda of a damper x'' = lambda x' that stays stable; HUGE_VAL: any
+  double oscillation;  ///< largest h omega of an oscillation that does; HUGE_VAL: any
+  bool error_control;  ///< has an estimate of its error: may choose its steps
+  bool jacobian;       ///< takes the Jacobian of the forward dynamics, once a step
 };
 
 /// Of all, in the order of Method.
@@ -39,8 +39,10 @@ std::vector<std::string> method_names();
 /// c of each stage, in steps.
 std::vector<double> stage_times(Method method);
 
-/// Where the stages of a step look up what is tabulated in time: `rows` places a step, `row[i]` the one of stage i
-/// (= rows: the next step's first). Uniform places stand at multiples of 1 / rows, others at `at` (ascending, from 0).
+/// Where the stages of a step look up what is tabulated in time: `rows` places a step, `row[i]` the one of
+/// stage i
+/// (= rows: the next step's first). Uniform places stand at multiples of 1 / rows, others at `at` (ascending,
+/// from 0).
 struct StageRows {
   int rows = 1;
   std::vector<int> row;

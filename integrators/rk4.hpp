@@ -5,8 +5,8 @@
 
 namespace mixloop {
 
-/// The classical Runge-Kutta method: order 4, four evaluations a step. Stable for h lambda in [-2.7853, 0] and
-/// i [-2.8284, 2.8284]. Hairer, Norsett & Wanner, Solving ODEs I, II.1, table 1.2.
+/// The classical Runge-Kutta method: order 4, four evaluations a step. Stable for h lambda in [-2.7853, 0]
+/// and i [-2.8284, 2.8284]. Hairer, Norsett & Wanner, Solving ODEs I, II.1, table 1.2.
 template <class T>
 class Rk4 {
  public:
@@ -14,7 +14,8 @@ class Rk4 {
 
   void begin() {}
 
-  /// In place. `rate(stage, c, x, dx)` writes x' at t + c h; stages count 0, 1, 2, 3, with c = 0, 1/2, 1/2, 1.
+  /// In place. `rate(stage, c, x, dx)` writes x' at t + c h; stages count 0, 1, 2, 3, with c = 0, 1/2,
+  /// 1/2, 1.
   template <class Rate>
   void step(Vec<T>& x, const T& h, const Rate& rate) {
     rate(0, T(0), x, k1_);

@@ -16,13 +16,14 @@ struct AccelerationJacobian {
   Vec<T> by_t;
 };
 
-/// A linearly implicit method with the exact Jacobian J, for q'' = a(t, q, v), in the form of Hairer & Wanner, Solving
-/// ODEs II, IV.7 (7.4'):
+/// A linearly implicit method with the exact Jacobian J, for q'' = a(t, q, v), in the form of Hairer &
+/// Wanner, Solving ODEs II, IV.7 (7.4'):
 ///   (I / (h gamma) - J) u_i = f(t + alpha_i h, x + sum_j a_ij u_j) + sum_j c_ij u_j / h + gamma_i h f_t
 ///   x+ = x + sum_i m_i u_i
 /// With f = (v, a) the first row gives u_q = h gamma (r_q + u_v), so that a step factors one n x n matrix,
 ///   (I / (h gamma) - J_v - h gamma J_q) u_v = r_v + h gamma J_q r_q
-/// A fixed cost a step: one Jacobian, one factorisation, kStages solutions. What follows (q, v) in x stays as it is.
+/// A fixed cost a step: one Jacobian, one factorisation, kStages solutions. What follows (q, v) in x stays as
+/// it is.
 template <class CoefficientTable, class T>
 class Rosenbrock {
  public:
@@ -102,8 +103,8 @@ class Rosenbrock {
   T coefficient_gamma_ = coefficient<T>(Table::kGamma);
 };
 
-/// RODAS3: order 3, L-stable (the whole left half plane; R goes to 0 at infinity), three evaluations and a Jacobian a
-/// step. Sandu et al., Atmospheric Environment 31 (1997) 3459.
+/// RODAS3: order 3, L-stable (the whole left half plane; R goes to 0 at infinity), three evaluations and a
+/// Jacobian a step. Sandu et al., Atmospheric Environment 31 (1997) 3459.
 struct Rodas3Table {
   static constexpr int kStages = 4, kOrder = 3;
   static constexpr const char* kGamma = "1/2";
@@ -112,13 +113,14 @@ struct Rodas3Table {
   static constexpr const char* kA[][3] = {{}, {"0"}, {"2", "0"}, {"2", "0", "1"}};
   static constexpr const char* kC[][3] = {{}, {"4"}, {"1", "-1"}, {"1", "-1", "-8/3"}};
   static constexpr const char* kM[] = {"2", "0", "1", "1"};
-  static constexpr bool kSameArgument[] = {false, true, false, false};  ///< f of the stage before serves again
+  static constexpr bool kSameArgument[] = {false, true, false,
+                                           false};  ///< f of the stage before serves again
 };
 template <class T>
 using Rodas3 = Rosenbrock<Rodas3Table, T>;
 
-/// RODAS: order 4, L-stable, six evaluations and a Jacobian a step. Hairer & Wanner, Solving ODEs II, IV.7, and their
-/// code RODAS; its coefficients have 16 digits.
+/// RODAS: order 4, L-stable, six evaluations and a Jacobian a step. Hairer & Wanner, Solving ODEs II, IV.7,
+/// and their code RODAS; its coefficients have 16 digits.
 struct Rodas4Table {
   static constexpr int kStages = 6, kOrder = 4;
   static constexpr const char* kGamma = "1/4";
@@ -137,9 +139,10 @@ struct Rodas4Table {
       {"-2.430093356833875", "-0.2063599157091915"},
       {"-0.1073529058151375", "-9.594562251023355", "-20.47028614809616"},
       {"7.496443313967647", "-10.24680431464352", "-33.99990352819905", "11.70890893206160"},
-      {"8.083246795921522", "-7.981132988064893", "-31.52159432874371", "16.31930543123136", "-6.058818238834054"}};
-  static constexpr const char* kM[] = {"1.221224509226641",   "6.019134481288629", "12.53708332932087",
-                                       "-0.6878860361058950", "1",                 "1"};
+      {"8.083246795921522", "-7.981132988064893", "-31.52159432874371", "16.31930543123136",
+       "-6.058818238834054"}};
+  static constexpr const char* kM[] = {
+      "1.221224509226641", "6.019134481288629", "12.53708332932087", "-0.6878860361058950", "1", "1"};
   static constexpr bool kSameArgument[] = {false, false, false, false, false, false};
 };
 template <class T>

@@ -6,8 +6,8 @@
 namespace mixloop {
 
 /// v+ = v + h a(q, v), q+ = q + h v+: order 1, one evaluation a step, symplectic where forces depend on the
-/// position alone (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.2). Stable for oscillations up to
-/// h omega = 2; dampers, taken explicitly, up to h lambda = -2.
+/// position alone (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.2). Stable for oscillations
+/// up to h omega = 2; dampers, taken explicitly, up to h lambda = -2.
 template <class T>
 class SemiImplicitEuler {
  public:

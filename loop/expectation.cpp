@@ -28,9 +28,9 @@ double Expectation::Bound::value_in(const Measures& measures) const {
 }
 
 Expectation read_expectation(const NodePtr& node, const Scene& scene) {
-  const Mapping entry(
-      node, "what is expected",
-      {"max_position_error", "final_position_error", "rms_position_error", "max_torque", "diverges", "safe_state"});
+  const Mapping entry(node, "what is expected",
+                      {"max_position_error", "final_position_error", "rms_position_error", "max_torque",
+                       "diverges", "safe_state"});
   Expectation expectation;
   for (const auto& known : kErrors) {
     const NodePtr bound = entry.find(known.name);

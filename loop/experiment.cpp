@@ -59,9 +59,9 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   PlantSettings& plant = experiment.plant;
   const NodePtr faults = root.find("faults");
   if (faults)
-    plant.faults.scheduled =
-        read_faults(faults, *experiment.scene, has_damping(*experiment.scene) || plant.actuators.has_friction(),
-                    experiment.rate_hz, experiment.plant_parameters);
+    plant.faults.scheduled = read_faults(faults, *experiment.scene,
+                                         has_damping(*experiment.scene) || plant.actuators.has_friction(),
+                                         experiment.rate_hz, experiment.plant_parameters);
   if (const NodePtr seed = root.find("seed"))
     plant.seed = static_cast<std::uint64_t>(whole_number_of(*seed, 0, 1L << 53, "the seed"));
   check_hardware(plant, root.find("plant"), faults);
@@ -90,8 +90,8 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   Experiment experiment;
   experiment.document = overridden(document, overrides, false);
   const Mapping root(experiment.document, "the experiment",
-                     {"scene", "rate", "path", "controller", "plant", "real_time", "parameters", "limits", "expect",
-                      "faults", "seed"});
+                     {"scene", "rate", "path", "controller", "plant", "real_time", "parameters", "limits",
+                      "expect", "faults", "seed"});
   experiment.file = file;
   experiment.name = file.stem().string();
   const auto base = file.parent_path();
@@ -114,13 +114,15 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
 
   const NodePtr plant = root.find("plant");
   if (plant) experiment.plant = read_plant_settings(plant, scene, experiment.rate_hz);
-  if (const NodePtr real_time = root.find("real_time")) experiment.deadline = read_deadline_settings(real_time);
+  if (const NodePtr real_time = root.find("real_time"))
+    experiment.deadline = read_deadline_settings(real_time);
   experiment.deadline.kp = experiment.controller.kp;
   experiment.deadline.kv = experiment.controller.kv;
   if (experiment.plant.continuous && !experiment.controller.safety.torque_rate_limit.empty())
-    throw InputError("out_of_range", find_entry(*controller, "safety")->place,
-                     "a torque_rate_limit is from command to command, which control: continuous has not; expected "
-                     "control: held");
+    throw InputError(
+        "out_of_range", find_entry(*controller, "safety")->place,
+        "a torque_rate_limit is from command to command, which control: continuous has not; expected "
+        "control: held");
   experiment.parameters = parameter_values(scene, root.find("parameters"), scene.default_parameters());
   experiment.plant_parameters = parameter_values(scene, parameters_in(plant), experiment.parameters);
   experiment.controller_parameters = parameter_values(
@@ -138,9 +140,8 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
 
 Plan make_plan(const Experiment& experiment) {
   const auto model = make_model<double>(experiment.scene, std::span<const double>(experiment.parameters));
-  Plan::Settings settings{.rate_hz = experiment.rate_hz,
-                          .limits = experiment.limits,
-                          .start_psi = experiment.plant.initial_psi};
+  Plan::Settings settings{
+      .rate_hz = experiment.rate_hz, .limits = experiment.limits, .start_psi = experiment.plant.initial_psi};
   if (experiment.plant.continuous) {
     const StageRows rows = stage_rows(experiment.plant.integrator);
     settings.stages_per_tick = experiment.plant.substeps * (rows.uniform ? rows.rows : 1);
@@ -156,7 +157,8 @@ Controller make_controller(const Experiment& experiment) {
 }
 
 GuardedController make_guarded_controller(const Experiment& experiment) {
-  return GuardedController(make_controller(experiment), experiment.controller.safety, experiment.controller.kv);
+  return GuardedController(make_controller(experiment), experiment.controller.safety,
+                           experiment.controller.kv);
 }
 
 Experiment with_integrator_settled(Experiment experiment, const Plan& plan) {
@@ -187,15 +189,15 @@ Plant make_plant(const Experiment& experiment, const Plan& plan) {
 }
 
 DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan) {
-  return DeadlinePlant(make_plant(experiment, plan), experiment.plant, experiment.deadline, experiment.rate_hz,
-                       plan.ticks());
+  return DeadlinePlant(make_plant(experiment, plan), experiment.plant, experiment.deadline,
+                       experiment.rate_hz, plan.ticks());
 }
 
 std::array<std::string, 4> common_ground(const Experiment& experiment) {
   std::string path, parameters;
   for (const auto& via : experiment.path.vias)
     path += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
-                               via.duration, via.dwell);
+                        via.duration, via.dwell);
   path +=
       fmt::format("repeat {} approach {:a}", experiment.path.repeat, experiment.path.approach.value_or(0));
   for (const double limit : experiment.limits.velocity) path += fmt::format(" {:a}", limit);

@@ -35,11 +35,11 @@ struct Experiment {
   Path path;
   ControllerSettings controller;
   PlantSettings plant;
-  DeadlineSettings deadline;                      ///< in real time
+  DeadlineSettings deadline;       ///< in real time
   std::vector<double> parameters;  ///< shared
   std::vector<double> plant_parameters;
   std::vector<double> controller_parameters;
-  double position_error_limit = 0.1;  ///< m: past it the run has diverged
+  double position_error_limit = 0.1;                  ///< m: past it the run has diverged
   std::optional<IntegratorChoice> integrator_choice;  ///< of `integrator: auto`, once settled
   PlanLimits limits;
   Expectation expect;

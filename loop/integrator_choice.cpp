@@ -45,7 +45,8 @@ class Chooser {
       const Reference at = plan.at(k);
       Sample sample{static_cast<double>(k) * tick_, Vector(2 * n_), Vector(n_), {}, {}};
       sample.start << at.psi, at.psid;
-      dynamics_.inverse_dynamics(span_of(at.psi), span_of(at.psid), span_of(at.psidd), sample.t, span_of(sample.tau));
+      dynamics_.inverse_dynamics(span_of(at.psi), span_of(at.psid), span_of(at.psidd), sample.t,
+                                 span_of(sample.tau));
       sample.jacobian = {Matrix(n_, n_), Matrix(n_, n_), Vector::Zero(n_)};
       linearise(sample, sample.t, sample.start, sample.jacobian);
       sample.end = advanced(reference, sample);
@@ -100,7 +101,9 @@ class Chooser {
           dynamics_.forward_dynamics(psi(at), psid(at), span_of(sample.tau), sample.t + after,
                                      {dx.data() + n_, static_cast<std::size_t>(n_)});
         },
-        [&](double after, const Vector& at, auto& jacobian) { linearise(sample, sample.t + after, at, jacobian); });
+        [&](double after, const Vector& at, auto& jacobian) {
+          linearise(sample, sample.t + after, at, jacobian);
+        });
     return x;
   }
 
@@ -123,7 +126,8 @@ class Chooser {
       J.bottomLeftCorner(n_, n_) = sample.jacobian.by_q;
       J.bottomRightCorner(n_, n_) = sample.jacobian.by_v;
       const double growth = std::exp(std::max(0.0, J.eigenvalues().real().maxCoeff()) * tick_);
-      if (!(map_of_tick(method, substeps, J, sample).eigenvalues().cwiseAbs().maxCoeff() <= growth * (1 + 1e-4)))
+      if (!(map_of_tick(method, substeps, J, sample).eigenvalues().cwiseAbs().maxCoeff() <=
+            growth * (1 + 1e-4)))
         return false;
     }
     return true;
@@ -144,14 +148,17 @@ class Chooser {
 
   std::string reason(const IntegratorChoice& choice, double price) const {
     return fmt::format(
-        "{}, {} step{} a tick: the cheapest ({:.3g} evaluations a tick) that keeps {:.1g} a tick; adds {:.1e} at most "
+        "{}, {} step{} a tick: the cheapest ({:.3g} evaluations a tick) that keeps {:.1g} a tick; adds "
+        "{:.1e} at most "
         "at {} ticks along the path",
         facts(choice.method).name, choice.substeps, choice.substeps == 1 ? "" : "s", price, choice.asked,
         choice.estimate, samples_.size());
   }
 
   std::span<const double> psi(const Vector& x) const { return {x.data(), static_cast<std::size_t>(n_)}; }
-  std::span<const double> psid(const Vector& x) const { return {x.data() + n_, static_cast<std::size_t>(n_)}; }
+  std::span<const double> psid(const Vector& x) const {
+    return {x.data() + n_, static_cast<std::size_t>(n_)};
+  }
 
   Dynamics dynamics_;
   int n_;
@@ -161,15 +168,17 @@ class Chooser {
 
 }  // namespace
 
-IntegratorChoice choose_integrator(const std::shared_ptr<const Scene>& scene, const std::vector<double>& parameters,
-                                   const Plan& plan, double rate_hz, double local_error, bool jacobian) {
+IntegratorChoice choose_integrator(const std::shared_ptr<const Scene>& scene,
+                                   const std::vector<double>& parameters, const Plan& plan, double rate_hz,
+                                   double local_error, bool jacobian) {
   Chooser chooser(scene, parameters, rate_hz, local_error);
   chooser.look(plan);
   if (const auto choice = chooser.cheapest(jacobian)) return *choice;
-  throw InputError("out_of_reach", {},
-                   fmt::format("no integrator keeps a local error of {:g} with up to {} steps a tick; expected a larger "
-                               "plant.local_error or rate",
-                               local_error, kMostSubsteps));
+  throw InputError(
+      "out_of_reach", {},
+      fmt::format("no integrator keeps a local error of {:g} with up to {} steps a tick; expected a larger "
+                  "plant.local_error or rate",
+                  local_error, kMostSubsteps));
 }
 
 }  // namespace mixloop

@@ -8,7 +8,8 @@ namespace mixloop {
 /// What a controller gets to see of a plant at a tick. Copies nothing where the sensors are exact.
 class MeasuredState {
  public:
-  explicit MeasuredState(const Plant& plant) : exact_(plant.measures_exactly()), psi_(map_of(plant.psi())), psid_(psi_) {}
+  explicit MeasuredState(const Plant& plant)
+      : exact_(plant.measures_exactly()), psi_(map_of(plant.psi())), psid_(psi_) {}
 
   /// At every tick, once.
   void take(Plant& plant) {

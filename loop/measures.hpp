@@ -19,8 +19,8 @@ struct Measures {
   std::int64_t ticks = 0;                 ///< the last tick recorded; N where the run is whole
   std::string trajectory_sha256;          ///< of the doubles t, psi, psi', tau of ticks 0 to `ticks`
   std::optional<double> diverged_at;      ///< s
-  std::optional<double> safe_at;          ///< s: from there on the plant was in its safe state, and not judged
-  std::optional<double> interrupted_at;   ///< s
+  std::optional<double> safe_at;         ///< s: from there on the plant was in its safe state, and not judged
+  std::optional<double> interrupted_at;  ///< s
 };
 
 }  // namespace mixloop

@@ -30,8 +30,8 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
   conditions_.insert(conditions_.end(), parameters.begin(), parameters.end());
   row_of_conditions_ = conditions_.size();
   // A fault begins and ends; injected ones, more of which than wait at a time come seldom.
-  const std::size_t faults = experiment.plant.faults.scheduled.size() +
-                             (experiment.plant.faults.injected ? kInjectedKept : 0);
+  const std::size_t faults =
+      experiment.plant.faults.scheduled.size() + (experiment.plant.faults.injected ? kInjectedKept : 0);
   conditions_.reserve(row_of_conditions_ * (1 + 2 * faults));
 }
 

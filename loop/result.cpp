@@ -47,7 +47,8 @@ nlohmann::json bounds_json(const Expectation& expect, const Measures& measures) 
 nlohmann::json integrator_json(const Experiment& experiment) {
   const PlantSettings& plant = experiment.plant;
   nlohmann::json json = {{"name", facts(plant.integrator).name}, {"substeps", plant.substeps}};
-  if (plant.local_error > 0) json = {{"name", facts(plant.integrator).name}, {"local_error", plant.local_error}};
+  if (plant.local_error > 0)
+    json = {{"name", facts(plant.integrator).name}, {"local_error", plant.local_error}};
   if (const auto& choice = experiment.integrator_choice)
     json["chosen"] = {{"local_error", choice->asked}, {"estimate", choice->estimate}, {"why", choice->why}};
   return json;

@@ -27,7 +27,8 @@ void simulate(const Experiment& experiment, const Plan& plan, Recorder& recorder
     if (!recorder.state(k, plant.psi(), plant.psid(), plant.work())) return;
     if (!go_on(k)) return recorder.interrupted();
     measured.take(plant);
-    controller.torque(measured.psi(), measured.psid(), measured.stale(), plan.at(k), plant.time(), span_of(tau));
+    controller.torque(measured.psi(), measured.psid(), measured.stale(), plan.at(k), plant.time(),
+                      span_of(tau));
     plant.command(span_of(std::as_const(tau)));
     if (!recorder.command(k, span_of(std::as_const(tau)), plant.applied())) return;
     if (k == plan.ticks()) return;

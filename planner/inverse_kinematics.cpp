@@ -127,8 +127,8 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
     const double length = step.cwiseQuotient(motor_scale_).norm();
     const bool sound = step.allFinite() && length <= 0.5;
     const double distance = error.norm();
-    // What Newton's method still has to go is quadratically small in the step (next to a singular pose a small
-    // distance may take a long one): this step ends it.
+    // What Newton's method still has to go is quadratically small in the step (next to a singular pose a
+    // small distance may take a long one): this step ends it.
     if (sound && damping == 0 && distance <= 1e-10 * scale_ && length <= 1e-8) {
       psi = trial;
       return IkOutcome::kSolved;

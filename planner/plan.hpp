@@ -18,8 +18,9 @@ class Plan {
  public:
   struct Settings {
     double rate_hz = 1000;
-    int stages_per_tick = 1;           ///< equal steps of the table a tick
-    std::vector<double> within = {0};  ///< rows a step, as shares of it, ascending from 0: an integrator's stages
+    int stages_per_tick = 1;  ///< equal steps of the table a tick
+    std::vector<double> within = {
+        0};  ///< rows a step, as shares of it, ascending from 0: an integrator's stages
     PlanLimits limits = {};
     std::vector<double> start_psi = {};  ///< where the motors stand; empty: at the path's start
   };
@@ -51,8 +52,8 @@ class Plan {
   int n_ = 0;
   int stages_ = 1;  ///< rows a tick
   std::int64_t ticks_ = 0, start_tick_ = 0;
-  std::int64_t lap_rows_ = 0;   ///< of the path's rows in the table: a path that repeats has one lap there
-  std::vector<double> table_;   ///< rows of the move to the start, of a lap, of the end, and of rest past it
+  std::int64_t lap_rows_ = 0;  ///< of the path's rows in the table: a path that repeats has one lap there
+  std::vector<double> table_;  ///< rows of the move to the start, of a lap, of the end, and of rest past it
 };
 
 }  // namespace mixloop

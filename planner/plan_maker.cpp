@@ -62,7 +62,8 @@ void PlanMaker::make(Plan& plan) {
 }
 
 void PlanMaker::require_room(double steps) const {
-  if (!(steps * static_cast<double>(width_) * static_cast<double>(reference_size(model_.n())) <= kMostNumbers))
+  if (!(steps * static_cast<double>(width_) * static_cast<double>(reference_size(model_.n())) <=
+        kMostNumbers))
     throw InputError("too_large", path_.place,
                      fmt::format("{} steps; their table would take more than 1 GB", steps));
 }
@@ -186,7 +187,8 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   const Reference start = reference_in(row(plan, 0), plan.n_);
   const MoveToStart move(from, {start.psi, start.psid, start.psidd}, static_cast<double>(steps) / rate);
   const auto at = [&](double step) { return move.at(step / static_cast<double>(steps)); };
-  plan.table_.insert(plan.table_.begin(), static_cast<std::size_t>(steps * width_) * reference_size(plan.n_), 0.0);
+  plan.table_.insert(plan.table_.begin(), static_cast<std::size_t>(steps * width_) * reference_size(plan.n_),
+                     0.0);
   plan.start_tick_ = ticks;
   plan.ticks_ += ticks;
 

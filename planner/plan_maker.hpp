@@ -35,8 +35,8 @@ class PlanMaker {
   InverseKinematics ik_;
   SingularityMeasures measures_;
   Refusal refusal_;
-  bool timed_;                   ///< the constraints depend on time: no lap is like the other
-  bool timed_loads_;             ///< there are torque limits, and loads that depend on time
+  bool timed_;        ///< the constraints depend on time: no lap is like the other
+  bool timed_loads_;  ///< there are torque limits, and loads that depend on time
   std::int64_t lap_steps_ = 0;
   std::vector<double> samples_;  ///< measures at each step of the path
 };

@@ -32,7 +32,8 @@ inline Reference reference_in(std::span<const double> row, int n) {
           Reference::Triple(E + 6)};
 }
 
-/// A reference some time after one that is known, to second order: x + x' dt + x'' dt^2 / 2, x' + x'' dt, x''.
+/// A reference some time after one that is known, to second order: x + x' dt + x'' dt^2 / 2, x' + x'' dt,
+/// x''.
 class ExtrapolatedReference {
  public:
   explicit ExtrapolatedReference(int n) : n_(n), row_(reference_size(n)) {}

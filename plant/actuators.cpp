@@ -38,7 +38,8 @@ void read_friction(const NodePtr& node, const Scene& scene, ActuatorSettings& se
     throw InputError("unknown_key", smooth->place, "smooth belongs to coulomb, and there is none");
   settings.smooth = read_each_motor(smooth, scene, kFrequency, kLength / kTime, kPositive,
                                     "the velocity up to which Coulomb friction is smooth");
-  if (settings.smooth.empty() && !settings.coulomb.empty()) settings.smooth.assign(scene.motors.size(), kSmooth);
+  if (settings.smooth.empty() && !settings.coulomb.empty())
+    settings.smooth.assign(scene.motors.size(), kSmooth);
 }
 
 }  // namespace
@@ -46,8 +47,8 @@ void read_friction(const NodePtr& node, const Scene& scene, ActuatorSettings& se
 ActuatorSettings read_actuator_settings(const NodePtr& node, const Scene& scene) {
   const Mapping entry(node, "the actuators", {"rate_limit", "time_constant", "ripple", "friction"});
   ActuatorSettings settings;
-  settings.rate_limit = read_each_motor(entry.find("rate_limit"), scene, kMoment / kTime, kForce / kTime, kPositive,
-                                        "the rate limit");
+  settings.rate_limit = read_each_motor(entry.find("rate_limit"), scene, kMoment / kTime, kForce / kTime,
+                                        kPositive, "the rate limit");
   settings.time_constant =
       read_each_motor(entry.find("time_constant"), scene, kTime, kTime, kNotNegative, "the time constant");
   if (const NodePtr ripple = entry.find("ripple")) read_ripple(ripple, scene, settings);
@@ -76,8 +77,8 @@ double Actuators::Drive::ramp(double s) const {
   return s >= ramp_time() ? u : r + std::copysign(rate * s, u - r);
 }
 
-// T y' = r - y. On the ramp, with slope k: y = r0 + k (s + T (e^(-s/T) - 1)) + (y0 - r0) e^(-s/T), and at its end
-// towards u from there.
+// T y' = r - y. On the ramp, with slope k: y = r0 + k (s + T (e^(-s/T) - 1)) + (y0 - r0) e^(-s/T), and at its
+// end towards u from there.
 double Actuators::Drive::lagged(double s) const {
   if (lag == 0) return ramp(s);
   const double end = ramp_time(), on_ramp = std::min(s, end), slope = std::copysign(rate, u - r);

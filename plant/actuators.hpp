@@ -9,8 +9,8 @@
 
 namespace mixloop {
 
-/// What the drives make of the torque asked of them. Vectors have a value a motor, in N m and rad or N and m; empty: not
-/// so.
+/// What the drives make of the torque asked of them. Vectors have a value a motor, in N m and rad or N and m;
+/// empty: not so.
 struct ActuatorSettings {
   std::vector<double> rate_limit;       ///< N m/s
   std::vector<double> time_constant;    ///< s, of a first-order lag; 0: none
@@ -28,12 +28,12 @@ struct ActuatorSettings {
 /// Reads `{rate_limit, time_constant, ripple: {amplitude, per_turn}, friction: {viscous, coulomb, smooth}}`.
 ActuatorSettings read_actuator_settings(const NodePtr& node, const Scene& scene);
 
-/// The drives. A torque asked for (after dead time and saturation) goes through rate limit and lag, which have closed
-/// forms as long as it stays:
+/// The drives. A torque asked for (after dead time and saturation) goes through rate limit and lag, which
+/// have closed forms as long as it stays:
 ///   r(s) = r0 + sign(u - r0) min(R s, |u - r0|),   T y' = r - y,
 ///   tau = y (1 + A sin(N psi)) - b psi' - c tanh(psi' / v)
-/// so that the torque at a stage of the integrator is an exact function of the time since u began to act. Nothing
-/// allocates after construction.
+/// so that the torque at a stage of the integrator is an exact function of the time since u began to act.
+/// Nothing allocates after construction.
 class Actuators {
  public:
   Actuators(const ActuatorSettings& settings, std::size_t n);

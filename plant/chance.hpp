@@ -10,8 +10,8 @@ namespace mixloop {
 /// What a random number is drawn for: each has numbers of its own.
 enum class Draw : std::uint64_t { noise, drop, motor_fault, position_fault, velocity_fault };
 
-/// Random numbers as a function of seed, tick, channel and what they are for: whoever draws them, in whatever order and
-/// however often, gets the same ones.
+/// Random numbers as a function of seed, tick, channel and what they are for: whoever draws them, in whatever
+/// order and however often, gets the same ones.
 class Chance {
  public:
   explicit Chance(std::uint64_t seed) : seed_(mixed(seed)) {}
@@ -21,7 +21,8 @@ class Chance {
     return 0x1p-53 * static_cast<double>(bits(tick, channel, draw, 0) >> 11);
   }
 
-  /// Normal, mean 0, standard deviation 1. Box & Muller, A note on the generation of random normal deviates, 1958.
+  /// Normal, mean 0, standard deviation 1. Box & Muller, A note on the generation of random normal deviates,
+  /// 1958.
   double normal(std::int64_t tick, std::size_t channel, Draw draw) const {
     const double u = 0x1p-53 * (static_cast<double>(bits(tick, channel, draw, 0) >> 11) + 0.5);  // in (0, 1)
     const double v = 0x1p-53 * static_cast<double>(bits(tick, channel, draw, 1) >> 11);
@@ -38,7 +39,8 @@ class Chance {
   }
 
   std::uint64_t bits(std::int64_t tick, std::size_t channel, Draw draw, std::uint64_t index) const {
-    const std::uint64_t which = (static_cast<std::uint64_t>(channel) << 8) | (static_cast<std::uint64_t>(draw) << 1) | index;
+    const std::uint64_t which =
+        (static_cast<std::uint64_t>(channel) << 8) | (static_cast<std::uint64_t>(draw) << 1) | index;
     return mixed(mixed(seed_ + static_cast<std::uint64_t>(tick)) + which);
   }
 

@@ -24,8 +24,8 @@ class DeadlinePlant {
   Plant& plant() { return plant_; }
   const Plant& plant() const { return plant_; }
 
-  /// A command arrives, in the tick in hand whatever `arrival` says. Older ones than the newest one are no news.
-  /// COMMAND(0) acts at once, whatever the delay: the robot starts held.
+  /// A command arrives, in the tick in hand whatever `arrival` says. Older ones than the newest one are no
+  /// news. COMMAND(0) acts at once, whatever the delay: the robot starts held.
   void command(Arrival arrival, std::span<const double> tau);
 
   /// Goes on to the next tick.
@@ -33,8 +33,8 @@ class DeadlinePlant {
 
   /// Brings the safe state, from the tick in hand on. `cause` must outlive this.
   void make_safe(const char* cause);
-  /// Plant::inject, kept among the arrivals; false also after kInjected of them. What it changes in the tick in
-  /// hand it changes from its start.
+  /// Plant::inject, kept among the arrivals; false also after kInjected of them. What it changes in the tick
+  /// in hand it changes from its start.
   bool inject(const Fault& fault);
   static constexpr std::size_t kInjected = 1000;
   struct Safe {

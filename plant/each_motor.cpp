@@ -14,8 +14,8 @@ std::vector<double> read_each_motor(const NodePtr& node, const Scene& scene, con
   const auto items = items_of(node, what);
   if (!one && items.size() != scene.motors.size())
     throw InputError("wrong_size", node->place,
-                     fmt::format("{} has {} values; expected one for all motors or one for each of the {}", what,
-                                 items.size(), scene.n()));
+                     fmt::format("{} has {} values; expected one for all motors or one for each of the {}",
+                                 what, items.size(), scene.n()));
   std::vector<double> values;
   for (std::size_t i = 0; i < scene.motors.size(); ++i) {
     const Node& item = *items[one ? 0 : i];

@@ -39,7 +39,8 @@ bool may_change(const Scene& scene, int parameter) {
   for (const auto& coordinate : scene.coordinates)
     if (uses(coordinate.constraint)) return false;
   for (const auto& transform : scene.transforms)
-    if (uses(transform.theta) || uses(transform.s) || uses(transform.a) || uses(transform.alpha)) return false;
+    if (uses(transform.theta) || uses(transform.s) || uses(transform.a) || uses(transform.alpha))
+      return false;
   return std::none_of(scene.end_effector.point.begin(), scene.end_effector.point.end(), uses);
 }
 
@@ -49,16 +50,22 @@ const char* objection(const Fault& fault, const Scene& scene, double rate_hz) {
     return "a number is not finite";
   if (fault.at < 0 || fault.duration < 0) return "a time is negative";
   if (fault.target > Target::friction) return "there is no such target";
-  const auto count = static_cast<int>(fault.target == Target::parameter ? scene.parameters.size() : scene.motors.size());
-  if (fault.target != Target::friction && fault.index >= count) return "there is no such motor, sensor or parameter";
+  const auto count =
+      static_cast<int>(fault.target == Target::parameter ? scene.parameters.size() : scene.motors.size());
+  if (fault.target != Target::friction && fault.index >= count)
+    return "there is no such motor, sensor or parameter";
   if (fault.index < (fault.target == Target::parameter ? 0 : -1)) return "the index is negative";
   if (fault.target == Target::parameter || fault.target == Target::friction) {
-    if (fault.kind != Kind::changed && fault.kind != Kind::none) return "parameters and friction can only be changed";
+    if (fault.kind != Kind::changed && fault.kind != Kind::none)
+      return "parameters and friction can only be changed";
     if (fault.kind == Kind::none) return nullptr;
-    if (fault.target == Target::friction) return magnitude < 0 ? "the factor on friction is negative" : nullptr;
-    if (!may_change(scene, fault.index)) return "the mechanism's geometry depends on the parameter: it can't jump in a run";
+    if (fault.target == Target::friction)
+      return magnitude < 0 ? "the factor on friction is negative" : nullptr;
+    if (!may_change(scene, fault.index))
+      return "the mechanism's geometry depends on the parameter: it can't jump in a run";
     const auto index = static_cast<std::size_t>(fault.index);
-    return scene.parameters[index].dimension.same_powers(kMass) && magnitude < 0 ? "the mass is negative" : nullptr;
+    return scene.parameters[index].dimension.same_powers(kMass) && magnitude < 0 ? "the mass is negative"
+                                                                                 : nullptr;
   }
   if (fault.kind == Kind::garbage && magnitude <= 0) return "the magnitude of garbage is not positive";
   if (fault.kind == Kind::slow && magnitude <= 0) return "the time constant is not positive";
@@ -81,7 +88,8 @@ void FaultFilter::start(Kind kind, double magnitude) {
   magnitude_ = magnitude;
   begun_ = false;
   if (kind == Kind::delayed) {
-    delay_ = std::clamp<std::int64_t>(std::llround(magnitude * rate_hz_), 1, static_cast<std::int64_t>(ring_.size()) - 1);
+    delay_ = std::clamp<std::int64_t>(std::llround(magnitude * rate_hz_), 1,
+                                      static_cast<std::int64_t>(ring_.size()) - 1);
     filled_ = 0;
   }
 }
@@ -147,8 +155,9 @@ Faults::Faults(const FaultSettings& settings, std::uint64_t seed, const Scene& s
 /// The first tick at or after a time.
 std::int64_t Faults::tick_at(double time) const {
   const double ticks = time * rate_hz_;
-  return ticks < static_cast<double>(kLatest) ? static_cast<std::int64_t>(std::ceil(ticks - 1e-9 * std::max(1.0, ticks)))
-                                              : kLatest;
+  return ticks < static_cast<double>(kLatest)
+             ? static_cast<std::int64_t>(std::ceil(ticks - 1e-9 * std::max(1.0, ticks)))
+             : kLatest;
 }
 
 void Faults::queue(const Fault& fault, std::int64_t earliest) {

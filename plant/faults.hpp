@@ -13,23 +13,24 @@
 
 namespace mixloop {
 
-/// Something that goes wrong. It begins with the first tick at or after `at` and ends with the first one at or after
-/// `at + duration`; on the same target a later fault takes an earlier one's place.
+/// Something that goes wrong. It begins with the first tick at or after `at` and ends with the first one at
+/// or after `at + duration`; on the same target a later fault takes an earlier one's place.
 struct Fault {
   /// As fault_t's TARGET constants: what acts, what is measured, a parameter of the scene, friction.
   enum class Target : std::uint8_t { motor, sensor, parameter, friction };
   /// As fault_t's KIND constants.
   enum class Kind : std::uint8_t { none, off, stuck, garbage, wrong, slow, delayed, intermittent, changed };
   static constexpr std::array<std::string_view, 4> kTargets = {"motor", "sensor", "parameter", "friction"};
-  static constexpr std::array<std::string_view, 9> kKinds = {"none", "off",     "stuck",        "garbage", "wrong",
-                                                             "slow", "delayed", "intermittent", "changed"};
+  static constexpr std::array<std::string_view, 9> kKinds = {
+      "none", "off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent", "changed"};
 
   Target target = Target::motor;
   Kind kind = Kind::none;  ///< none heals
   int index = -1;          ///< of the motor, sensor or parameter, from 0; -1: all motors or sensors
-  double magnitude = 0;    ///< N m, N, rad, m, s, a share of time, the parameter's value or a factor, as the kind has it
-  double at = 0;           ///< s of plant time; what has passed: at once
-  double duration = 0;     ///< s; 0: until healed
+  double magnitude =
+      0;  ///< N m, N, rad, m, s, a share of time, the parameter's value or a factor, as the kind has it
+  double at = 0;        ///< s of plant time; what has passed: at once
+  double duration = 0;  ///< s; 0: until healed
 };
 
 /// What may happen to a plant.
@@ -38,11 +39,11 @@ struct FaultSettings {
   bool injected = false;  ///< more may come by Plant::inject
   bool any() const { return injected || !scheduled.empty(); }
   bool change_friction() const;  ///< they may
-  bool random() const;  ///< a scheduled one draws random numbers
+  bool random() const;           ///< a scheduled one draws random numbers
 };
 
-/// Reads the list `[{at, for, motor | sensor | parameter | friction, kind, magnitude | value}, ...]`. `friction`: there
-/// is some that can change; `values`: the plant's parameters.
+/// Reads the list `[{at, for, motor | sensor | parameter | friction, kind, magnitude | value}, ...]`.
+/// `friction`: there is some that can change; `values`: the plant's parameters.
 std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool friction, double rate_hz,
                                const std::vector<double>& values);
 
@@ -52,8 +53,8 @@ bool may_change(const Scene& scene, int parameter);
 /// Why a fault can't be, in words; null where it can.
 const char* objection(const Fault& fault, const Scene& scene, double rate_hz);
 
-/// One scalar's way through a fault, tick by tick. Within a tick it may be asked again, with another value: the last
-/// one counts.
+/// One scalar's way through a fault, tick by tick. Within a tick it may be asked again, with another value:
+/// the last one counts.
 class FaultFilter {
  public:
   FaultFilter(Chance chance, std::size_t channel, Draw draw, double rate_hz);
@@ -100,8 +101,10 @@ class Faults {
   double position(std::size_t i, std::int64_t tick, double value) { return positions_[i].pass(tick, value); }
   double velocity(std::size_t i, std::int64_t tick, double value) { return velocities_[i].pass(tick, value); }
 
-  bool active() const { return active_; }              ///< anything, at the tick last begun
-  std::int64_t changed_at() const { return changed_; }  ///< the last tick at which parameters or friction changed; -1
+  bool active() const { return active_; }  ///< anything, at the tick last begun
+  std::int64_t changed_at() const {
+    return changed_;
+  }  ///< the last tick at which parameters or friction changed; -1
   std::span<const double> parameters() const { return values_; }
   double friction() const { return friction_; }
 
@@ -121,7 +124,8 @@ class Faults {
   std::size_t n_;
   std::vector<Scheduled> waiting_;  ///< in the order of their ticks
   std::vector<FaultFilter> motors_, positions_, velocities_;
-  std::vector<std::int64_t> until_;  ///< of motors, sensors, parameters, friction: the tick that ends the fault
+  std::vector<std::int64_t>
+      until_;  ///< of motors, sensors, parameters, friction: the tick that ends the fault
   std::vector<double> normal_, values_;
   double friction_ = 1;
   bool active_ = false;

@@ -9,9 +9,11 @@ Hardware::Hardware(const PlantSettings& settings, const Dynamics& dynamics, doub
     : asked_(Vector::Zero(dynamics.n())), faulted_(asked_) {
   const auto n = static_cast<std::size_t>(dynamics.n());
   const Scene& scene = dynamics.scene();
-  const std::vector<double> values = settings.parameters.empty() ? scene.default_parameters() : settings.parameters;
+  const std::vector<double> values =
+      settings.parameters.empty() ? scene.default_parameters() : settings.parameters;
   if (settings.actuators.any()) actuators.emplace(settings.actuators, n);
-  if (settings.sensors.any() || settings.faults.any()) sensors.emplace(settings.sensors, settings.seed, n, rate_hz);
+  if (settings.sensors.any() || settings.faults.any())
+    sensors.emplace(settings.sensors, settings.seed, n, rate_hz);
   if (!settings.faults.any()) return;
   faults.emplace(settings.faults, settings.seed, scene, rate_hz, values);
   if (settings.faults.change_friction() && has_damping(scene))
@@ -39,16 +41,19 @@ void check_hardware(const PlantSettings& settings, const NodePtr& entry, const N
                                     facts(settings.integrator).name));
   if (!settings.continuous) return;
   if (settings.sensors.any())
-    refuse("sensors", "with control: continuous the control law sees every stage, and sensors have a sample a tick; "
-                      "expected control: held");
+    refuse("sensors",
+           "with control: continuous the control law sees every stage, and sensors have a sample a tick; "
+           "expected control: held");
   if (actuators.has_memory())
-    refuse("actuators", "with control: continuous no torque stays for a rate limit or a lag to follow; expected "
-                        "control: held, or ripple and friction alone");
+    refuse("actuators",
+           "with control: continuous no torque stays for a rate limit or a lag to follow; expected "
+           "control: held, or ripple and friction alone");
   for (const Fault& fault : settings.faults.scheduled)
     if (fault.target == Fault::Target::motor || fault.target == Fault::Target::sensor)
-      throw InputError("out_of_range", faults->place,
-                       "with control: continuous motors and sensors have no ticks for a fault to go by; expected "
-                       "control: held, or parameters and friction alone");
+      throw InputError(
+          "out_of_range", faults->place,
+          "with control: continuous motors and sensors have no ticks for a fault to go by; expected "
+          "control: held, or parameters and friction alone");
 }
 
 }  // namespace mixloop

@@ -8,7 +8,8 @@
 
 namespace mixloop {
 
-/// Where a plant isn't ideal: its drives, its sensors, what goes wrong with them. A plant that is ideal has none.
+/// Where a plant isn't ideal: its drives, its sensors, what goes wrong with them. A plant that is ideal has
+/// none.
 class Hardware {
  public:
   /// Whether settings ask for any.
@@ -39,8 +40,8 @@ class Hardware {
   bool was_asked_ = false;
 };
 
-/// Throws InputError where sensors, actuators or faults can't be right with how the plant is integrated and controlled.
-/// `entry`: the experiment's `plant`; `faults` its faults; either may be null.
+/// Throws InputError where sensors, actuators or faults can't be right with how the plant is integrated and
+/// controlled. `entry`: the experiment's `plant`; `faults` its faults; either may be null.
 void check_hardware(const PlantSettings& settings, const NodePtr& entry, const NodePtr& faults);
 
 }  // namespace mixloop

@@ -98,14 +98,17 @@ void Plant::integrate_held(double t, double length) {
   if (locked_) return;
   if (hardware_) return integrate_driven(t, length);
   const auto rate = [&](int, int, double after, const Vector& x, Vector& dx) { rate_of(t + after, x, dx); };
-  const auto linear = [&](double after, const Vector& x, auto& jacobian) { linearise(t + after, x, jacobian); };
+  const auto linear = [&](double after, const Vector& x, auto& jacobian) {
+    linearise(t + after, x, jacobian);
+  };
   if (!facts(settings_.integrator).jacobian) return integrator_.advance(x_, length, rate, linear);
   before_ = x_.head(static_cast<Eigen::Index>(n_));
   integrator_.advance(x_, length, rate, linear);
   add_work_since_before();
 }
 
-/// The work of the torque held since psi was before_, which methods with a Jacobian leave alone: tau . (psi+ - psi).
+/// The work of the torque held since psi was before_, which methods with a Jacobian leave alone: tau . (psi+
+/// - psi).
 void Plant::add_work_since_before() {
   const auto n = static_cast<Eigen::Index>(n_);
   before_ = x_.head(n) - before_;

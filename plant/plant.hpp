@@ -15,8 +15,8 @@ namespace mixloop {
 class Hardware;
 
 /// The simulated hardware: constraint-reduced forward dynamics, a torque held from command to command (or
-/// continuous), dead time and saturation; drives, sensors and faults where settings ask for them. It knows ticks, no
-/// clock.
+/// continuous), dead time and saturation; drives, sensors and faults where settings ask for them. It knows
+/// ticks, no clock.
 class Plant {
  public:
   Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::span<const double> psi0);
@@ -36,8 +36,8 @@ class Plant {
   bool measure(std::span<double> psi, std::span<double> psid);
   /// Whether that is psi() and psid().
   bool measures_exactly() const;
-  /// Takes a fault, which acts from tick() on or later. False: it can't be (objection says why), too many wait for their
-  /// time, or the settings don't allow any.
+  /// Takes a fault, which acts from tick() on or later. False: it can't be (objection says why), too many
+  /// wait for their time, or the settings don't allow any.
   bool inject(const Fault& fault);
   /// Null where nothing can go wrong.
   const Faults* faults() const;
@@ -78,7 +78,8 @@ class Plant {
   void take_changes();
   void drive(double s, std::span<const double> psi, std::span<const double> psid);
   void driven_rate_of(double s, double t, const Vector& x, Vector& dx);
-  void scale_friction(std::span<const double> psi, std::span<const double> psid, double t, std::span<double> psidd);
+  void scale_friction(std::span<const double> psi, std::span<const double> psid, double t,
+                      std::span<double> psidd);
   void scale_slopes(const Vector& x, double t);
   void rate_of(double t, const Vector& x, Vector& dx);
   void linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian);
@@ -98,8 +99,8 @@ class Plant {
   std::vector<Vector> commands_;  ///< a ring by tick, as long as the delay needs
   Integrator integrator_;
   StageRows rows_;
-  Vector linearisation_;  ///< 3 n^2, of methods with a Jacobian
-  bool timed_;            ///< the forward dynamics depend on time
+  Vector linearisation_;                ///< 3 n^2, of methods with a Jacobian
+  bool timed_;                          ///< the forward dynamics depend on time
   std::unique_ptr<Hardware> hardware_;  ///< null: ideal
 };
 

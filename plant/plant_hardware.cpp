@@ -12,8 +12,8 @@ Plant::Plant(Plant&&) noexcept = default;
 
 bool Plant::measure(std::span<double> psi_out, std::span<double> psid_out) {
   if (hardware_ && hardware_->sensors)
-    return hardware_->sensors->measure(tick_, psi(), psid(), hardware_->faults ? &*hardware_->faults : nullptr, psi_out,
-                                       psid_out);
+    return hardware_->sensors->measure(tick_, psi(), psid(),
+                                       hardware_->faults ? &*hardware_->faults : nullptr, psi_out, psid_out);
   std::copy(psi().begin(), psi().end(), psi_out.begin());
   std::copy(psid().begin(), psid().end(), psid_out.begin());
   return false;
@@ -58,7 +58,9 @@ void Plant::integrate_driven(double t, double length) {
   const auto rate = [&](int, int, double after, const Vector& x, Vector& dx) {
     driven_rate_of(done + after, t + done + after, x, dx);
   };
-  const auto linear = [&](double after, const Vector& x, auto& jacobian) { linearise(t + after, x, jacobian); };
+  const auto linear = [&](double after, const Vector& x, auto& jacobian) {
+    linearise(t + after, x, jacobian);
+  };
   const bool jacobian = facts(settings_.integrator).jacobian;  // then there are no actuators
   if (jacobian) before_ = x_.head(static_cast<Eigen::Index>(n_));
   while (done < length) {
@@ -72,7 +74,8 @@ void Plant::integrate_driven(double t, double length) {
 }
 
 void Plant::drive(double s, std::span<const double> psi, std::span<const double> psid) {
-  if (hardware_->actuators) hardware_->actuators->torque(s, psi, psid, hardware_->friction(), span_of(applied_));
+  if (hardware_->actuators)
+    hardware_->actuators->torque(s, psi, psid, hardware_->friction(), span_of(applied_));
 }
 
 void Plant::driven_rate_of(double s, double t, const Vector& x, Vector& dx) {
@@ -90,8 +93,8 @@ void Plant::scale_friction(std::span<const double> psi, std::span<const double> 
 
 void Plant::scale_slopes(const Vector& x, double t) {
   if (hardware_->friction_scaled())
-    hardware_->scene_friction->scale_slopes({x.data(), n_}, {x.data() + n_, n_}, applied(), t, hardware_->friction(),
-                                            span_of(linearisation_));
+    hardware_->scene_friction->scale_slopes({x.data(), n_}, {x.data() + n_, n_}, applied(), t,
+                                            hardware_->friction(), span_of(linearisation_));
 }
 
 }  // namespace mixloop

@@ -32,43 +32,47 @@ void read_integrator(const Mapping& entry, PlantSettings& settings) {
   if (settings.automatic) settings.local_error = kLocalError;
   if (settings.substeps > 1 && (local_error || settings.automatic))
     throw InputError("doubly_defined", substeps->place,
-                     local_error ? "substeps and local_error both say how long steps are; expected one of them"
-                                 : "integrator: auto finds the substeps itself; expected a local_error or nothing");
+                     local_error
+                         ? "substeps and local_error both say how long steps are; expected one of them"
+                         : "integrator: auto finds the substeps itself; expected a local_error or nothing");
   if (!local_error) return;
   settings.local_error = number_of(*local_error, kPure, "the local error");
   if (!(settings.local_error >= 1e-14 && settings.local_error <= 0.1))
     throw InputError("out_of_range", local_error->place,
                      fmt::format("a local error of {}; expected 1e-14 to 0.1", settings.local_error));
   if (!settings.automatic && !facts(settings.integrator).error_control)
-    throw InputError("out_of_range", local_error->place,
-                     fmt::format("{} has no estimate of its error; expected substeps, or dormand_prince, dop853 or auto "
-                                 "as the integrator",
-                                 facts(settings.integrator).name));
+    throw InputError(
+        "out_of_range", local_error->place,
+        fmt::format("{} has no estimate of its error; expected substeps, or dormand_prince, dop853 or auto "
+                    "as the integrator",
+                    facts(settings.integrator).name));
 }
 
 /// What can't evaluate the control at its stages.
 void require_stages_in_time(const PlantSettings& settings, const Place& place) {
   if (settings.automatic)
-    throw InputError("out_of_range", place,
-                     "integrator: auto looks at ticks with the torque held; with control: continuous name one");
+    throw InputError(
+        "out_of_range", place,
+        "integrator: auto looks at ticks with the torque held; with control: continuous name one");
   if (facts(settings.integrator).jacobian)
-    throw InputError("out_of_range", place,
-                     fmt::format("{} takes the Jacobian of the plant, which has not the controller's share of control: "
-                                 "continuous; expected another integrator or control: held",
-                                 facts(settings.integrator).name));
+    throw InputError(
+        "out_of_range", place,
+        fmt::format("{} takes the Jacobian of the plant, which has not the controller's share of control: "
+                    "continuous; expected another integrator or control: held",
+                    facts(settings.integrator).name));
   if (settings.local_error > 0)
-    throw InputError("out_of_range", place,
-                     "a local_error chooses steps as it goes, and with control: continuous the references stand at "
-                     "fixed stages; expected substeps");
+    throw InputError(
+        "out_of_range", place,
+        "a local_error chooses steps as it goes, and with control: continuous the references stand at "
+        "fixed stages; expected substeps");
 }
 
 }  // namespace
 
 PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene, double rate_hz) {
-  const Mapping entry(
-      node, "the plant",
-      {"integrator", "local_error", "control", "substeps", "command_delay", "torque_limit", "initial", "parameters",
-       "sensors", "actuators"});
+  const Mapping entry(node, "the plant",
+                      {"integrator", "local_error", "control", "substeps", "command_delay", "torque_limit",
+                       "initial", "parameters", "sensors", "actuators"});
   PlantSettings settings;
   read_integrator(entry, settings);
   if (const NodePtr control = entry.find("control"))

@@ -35,10 +35,11 @@ class Reader {
       : scene_(scene), friction_(friction), rate_hz_(rate_hz), values_(values) {}
 
   Fault read(const NodePtr& node) const {
-    const Mapping entry(node, "a fault",
-                        {"at", "for", "motor", "sensor", "parameter", "friction", "kind", "magnitude", "value"});
-    const NodePtr motor = entry.find("motor"), sensor = entry.find("sensor"), parameter = entry.find("parameter"),
-                  friction = entry.find("friction");
+    const Mapping entry(
+        node, "a fault",
+        {"at", "for", "motor", "sensor", "parameter", "friction", "kind", "magnitude", "value"});
+    const NodePtr motor = entry.find("motor"), sensor = entry.find("sensor"),
+                  parameter = entry.find("parameter"), friction = entry.find("friction");
     if (!motor + !sensor + !parameter + !friction != 3)
       throw InputError("missing_key", node->place,
                        "a fault is one thing's; expected one of motor, sensor, parameter, friction");
@@ -48,7 +49,8 @@ class Reader {
     else
       read_change(entry, parameter, friction, fault);
     fault.at = number_of(*entry.at("at"), kTime, "when a fault begins");
-    if (fault.at < 0) throw InputError("out_of_range", entry.at("at")->place, "a fault before tick 0; expected 0 s or later");
+    if (fault.at < 0)
+      throw InputError("out_of_range", entry.at("at")->place, "a fault before tick 0; expected 0 s or later");
     if (const NodePtr length = entry.find("for")) {
       fault.duration = number_of(*length, kTime, "how long a fault lasts");
       if (!(fault.duration > 0))
@@ -68,7 +70,8 @@ class Reader {
 
   static void refuse(const Mapping& entry, std::initializer_list<const char*> keys, const char* why) {
     for (const char* key : keys)
-      if (const NodePtr node = entry.find(key)) throw InputError("unknown_key", node->place, fmt::format("'{}' {}", key, why));
+      if (const NodePtr node = entry.find(key))
+        throw InputError("unknown_key", node->place, fmt::format("'{}' {}", key, why));
   }
 
   /// A motor's name, its number from 1 (psi_1 in trajectory.csv), or `all`.
@@ -100,7 +103,8 @@ class Reader {
     fault.magnitude = number_of(*entry.at("magnitude"), wanted, "the magnitude of a fault");
   }
 
-  void read_change(const Mapping& entry, const NodePtr& parameter, const NodePtr& friction, Fault& fault) const {
+  void read_change(const Mapping& entry, const NodePtr& parameter, const NodePtr& friction,
+                   Fault& fault) const {
     refuse(entry, {"kind", "magnitude"}, "belongs to a motor or sensor");
     fault.kind = Kind::changed;
     if (friction) {
@@ -118,8 +122,9 @@ class Reader {
     const std::size_t index = word_of(*parameter, names, "the parameter");
     fault.index = static_cast<int>(index);
     if (!may_change(scene_, fault.index))
-      throw InputError("out_of_range", parameter->place,
-                       "the mechanism's geometry depends on '" + names[index] + "', so it can't jump in a run");
+      throw InputError(
+          "out_of_range", parameter->place,
+          "the mechanism's geometry depends on '" + names[index] + "', so it can't jump in a run");
     const NodePtr value = entry.at("value");
     fault.magnitude = number_of(*value, scene_.parameters[index].dimension, "the parameter's new value");
     auto changed = values_;

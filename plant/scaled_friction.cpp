@@ -15,7 +15,8 @@ std::shared_ptr<const Scene> without_damping(const Scene& scene) {
   return undamped;
 }
 
-Dynamics undamped_dynamics(const Scene& scene, std::span<const double> parameters, Evaluation how, bool linearises) {
+Dynamics undamped_dynamics(const Scene& scene, std::span<const double> parameters, Evaluation how,
+                           bool linearises) {
   const auto undamped = without_damping(scene);
   return linearises ? Dynamics(undamped, parameters, how, {Purpose::forward_dynamics, Purpose::linearisation})
                     : Dynamics(undamped, parameters, how, {Purpose::forward_dynamics});
@@ -33,19 +34,21 @@ bool has_damping(const Scene& scene) {
                      [](const auto& load) { return !load.damping.is_zero(); });
 }
 
-ScaledFriction::ScaledFriction(const Scene& scene, std::span<const double> parameters, Evaluation how, bool linearises)
+ScaledFriction::ScaledFriction(const Scene& scene, std::span<const double> parameters, Evaluation how,
+                               bool linearises)
     : undamped_(undamped_dynamics(scene, parameters, how, linearises)),
       psidd_(scene.motors.size()),
       slopes_(3 * scene.motors.size() * scene.motors.size()) {}
 
-void ScaledFriction::scale(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau,
-                           double t, double factor, std::span<double> psidd) {
+void ScaledFriction::scale(std::span<const double> psi, std::span<const double> psid,
+                           std::span<const double> tau, double t, double factor, std::span<double> psidd) {
   undamped_.forward_dynamics(psi, psid, tau, t, psidd_);
   mix(psidd_, factor, psidd);
 }
 
 void ScaledFriction::scale_slopes(std::span<const double> psi, std::span<const double> psid,
-                                  std::span<const double> tau, double t, double factor, std::span<double> slopes) {
+                                  std::span<const double> tau, double t, double factor,
+                                  std::span<double> slopes) {
   undamped_.linearisation(psi, psid, tau, t, slopes_);
   mix(slopes_, factor, slopes);
 }

@@ -10,7 +10,8 @@ bool has_damping(const Scene& scene);
 
 /// Forward dynamics with a scene's viscous friction times a factor. psi'' is affine in the damping, so
 ///   psi''(f) = psi''(0) + f (psi''(1) - psi''(0))
-/// with psi''(0) of the same scene without any. An evaluation costs a second one; nothing allocates after construction.
+/// with psi''(0) of the same scene without any. An evaluation costs a second one; nothing allocates after
+/// construction.
 class ScaledFriction {
  public:
   /// `linearises`: the slopes are asked for too.
@@ -21,8 +22,8 @@ class ScaledFriction {
   void scale(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau, double t,
              double factor, std::span<double> psidd);
   /// The same of Dynamics::linearisation.
-  void scale_slopes(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau, double t,
-                    double factor, std::span<double> slopes);
+  void scale_slopes(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau,
+                    double t, double factor, std::span<double> slopes);
 
  private:
   Dynamics undamped_;

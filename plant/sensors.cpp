@@ -14,7 +14,7 @@ namespace mixloop {
 namespace {
 
 constexpr Range kNotNegative{0, kNoLimit, "0 or more"};
-constexpr double kLongestDelay = 1;          // s
+constexpr double kLongestDelay = 1;  // s
 constexpr std::int64_t kMostDelayTicks = 10000;
 
 std::vector<std::int64_t> whole_ticks(const NodePtr& node, const Scene& scene, double rate_hz) {
@@ -25,10 +25,12 @@ std::vector<std::int64_t> whole_ticks(const NodePtr& node, const Scene& scene, d
     ticks.push_back(std::llround(exactly));
     if (std::abs(exactly - std::round(exactly)) > 1e-9 * std::max(1.0, exactly))
       throw InputError("out_of_range", node->place,
-                       fmt::format("the sensors' delay is {:g} ticks; expected whole ticks of {:g} s", exactly, 1 / rate_hz));
+                       fmt::format("the sensors' delay is {:g} ticks; expected whole ticks of {:g} s",
+                                   exactly, 1 / rate_hz));
     if (ticks.back() > kMostDelayTicks)
-      throw InputError("out_of_range", node->place,
-                       fmt::format("the sensors' delay is {} ticks; expected up to {}", ticks.back(), kMostDelayTicks));
+      throw InputError(
+          "out_of_range", node->place,
+          fmt::format("the sensors' delay is {} ticks; expected up to {}", ticks.back(), kMostDelayTicks));
   }
   return ticks;
 }
@@ -67,8 +69,9 @@ Sensors::Sensors(const SensorSettings& settings, std::uint64_t seed, std::size_t
       rate_hz_(rate_hz),
       differentiated_(settings.differentiated),
       // T y' = u - y over a tick, T = 1 / (2 pi f)
-      share_(settings.velocity_filter > 0 ? -std::expm1(-2 * std::numbers::pi * settings.velocity_filter / rate_hz)
-                                          : 1) {
+      share_(settings.velocity_filter > 0
+                 ? -std::expm1(-2 * std::numbers::pi * settings.velocity_filter / rate_hz)
+                 : 1) {
   const auto value = [](const auto& values, std::size_t i) { return values.empty() ? 0 : values[i]; };
   for (std::size_t i = 0; i < n; ++i) {
     Channel channel{.resolution = value(settings.resolution, i),
@@ -82,8 +85,8 @@ Sensors::Sensors(const SensorSettings& settings, std::uint64_t seed, std::size_t
   }
 }
 
-bool Sensors::measure(std::int64_t tick, std::span<const double> psi, std::span<const double> psid, Faults* faults,
-                      std::span<double> psi_out, std::span<double> psid_out) {
+bool Sensors::measure(std::int64_t tick, std::span<const double> psi, std::span<const double> psid,
+                      Faults* faults, std::span<double> psi_out, std::span<double> psid_out) {
   const bool again = tick == tick_;
   if (!again) stale_ = false;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
@@ -96,7 +99,8 @@ bool Sensors::measure(std::int64_t tick, std::span<const double> psi, std::span<
   return stale_;
 }
 
-bool Sensors::read(Channel& channel, std::size_t i, std::int64_t tick, double psi, double psid, Faults* faults) {
+bool Sensors::read(Channel& channel, std::size_t i, std::int64_t tick, double psi, double psid,
+                   Faults* faults) {
   const bool first = tick_ < 0;
   double position = psi + channel.bias;
   if (channel.noise > 0) position += channel.noise * chance_.normal(tick, i, Draw::noise);

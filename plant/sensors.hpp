@@ -10,8 +10,8 @@
 
 namespace mixloop {
 
-/// What lies between the motors' positions and what is said of them. Vectors have a value a motor, in rad or m; empty:
-/// not so.
+/// What lies between the motors' positions and what is said of them. Vectors have a value a motor, in rad or
+/// m; empty: not so.
 struct SensorSettings {
   std::vector<double> resolution;  ///< readings are whole multiples of it, the nearest
   std::vector<double> noise;       ///< standard deviation of a normal one, before rounding
@@ -22,7 +22,8 @@ struct SensorSettings {
   double velocity_filter = 0;       ///< Hz, of a first-order low-pass after it; 0: none
 
   bool any() const {
-    return !resolution.empty() || !noise.empty() || !bias.empty() || !delay.empty() || !drop.empty() || differentiated;
+    return !resolution.empty() || !noise.empty() || !bias.empty() || !delay.empty() || !drop.empty() ||
+           differentiated;
   }
   bool random() const { return !noise.empty() || !drop.empty(); }
 };
@@ -30,15 +31,15 @@ struct SensorSettings {
 /// Reads `{resolution, noise, bias, delay, drop, velocity: measured | differentiated, velocity_filter}`.
 SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, double rate_hz);
 
-/// The sensors: of psi a reading, psi + bias + noise rounded to the resolution and through the sensor's fault; of psi'
-/// the true one, or the reading's difference over a tick, low-passed; both `delay` ticks old; the last ones again where
-/// they aren't delivered. Nothing allocates after construction.
+/// The sensors: of psi a reading, psi + bias + noise rounded to the resolution and through the sensor's
+/// fault; of psi' the true one, or the reading's difference over a tick, low-passed; both `delay` ticks old;
+/// the last ones again where they aren't delivered. Nothing allocates after construction.
 class Sensors {
  public:
   Sensors(const SensorSettings& settings, std::uint64_t seed, std::size_t n, double rate_hz);
 
-  /// At each tick, in order (the same one again gives the same); true where a reading is stale. The first tick's are
-  /// always delivered, and stand for what is older. `faults` may be null.
+  /// At each tick, in order (the same one again gives the same); true where a reading is stale. The first
+  /// tick's are always delivered, and stand for what is older. `faults` may be null.
   bool measure(std::int64_t tick, std::span<const double> psi, std::span<const double> psid, Faults* faults,
                std::span<double> psi_out, std::span<double> psid_out);
 
@@ -46,9 +47,9 @@ class Sensors {
   struct Channel {
     double resolution, noise, bias, drop;
     std::size_t delay;
-    double before = 0, filtered = 0;        ///< the last tick's reading, the low-passed velocity
+    double before = 0, filtered = 0;            ///< the last tick's reading, the low-passed velocity
     std::vector<double> positions, velocities;  ///< rings by tick
-    double position = 0, velocity = 0;      ///< as delivered last
+    double position = 0, velocity = 0;          ///< as delivered last
   };
   /// True where it isn't delivered.
   bool read(Channel& channel, std::size_t i, std::int64_t tick, double psi, double psid, Faults* faults);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "runtime/bus/bus.hpp"
-#include "runtime/protocol/config_hash.hpp"
-#include "runtime/machine/real_time_rights.hpp"
 #include "processes/command_line.hpp"
+#include "runtime/bus/bus.hpp"
+#include "runtime/machine/real_time_rights.hpp"
+#include "runtime/protocol/config_hash.hpp"
 
 namespace mixloop {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // mixloop-controller: answers the plant's STATE and the planner's REFERENCE of a tick with its COMMAND.
-#include "runtime/protocol/controller_peer.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/controller_side.hpp"
 #include "processes/peer.hpp"
+#include "runtime/protocol/controller_peer.hpp"
 
 namespace mixloop {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "loop/experiment.hpp"
-#include "runtime/protocol/plant_link.hpp"
 #include "processes/bus_line.hpp"
+#include "runtime/protocol/plant_link.hpp"
 
 namespace mixloop {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // mixloop-planner: publishes the REFERENCE of each tick one tick ahead of the plant.
-#include "runtime/protocol/planner_peer.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/peer.hpp"
+#include "runtime/protocol/planner_peer.hpp"
 
 namespace mixloop {
 namespace {

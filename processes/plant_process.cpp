@@ -8,10 +8,10 @@
 
 #include "loop/arrivals_file.hpp"
 #include "loop/result.hpp"
+#include "processes/speed.hpp"
 #include "runtime/protocol/lockstep_plant.hpp"
 #include "runtime/protocol/real_time_plant.hpp"
 #include "runtime/protocol/session.hpp"
-#include "processes/speed.hpp"
 
 namespace mixloop {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "loop/keep.hpp"
 #include "loop/truth.hpp"
-#include "runtime/protocol/plant_port.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/report_line.hpp"
+#include "runtime/protocol/plant_port.hpp"
 
 namespace mixloop {
 
@@ -58,7 +58,7 @@ class PlantSession {
   Inbox<fault_t> faults_;
   std::int64_t fault_count_ = -1;  ///< of the sender's own count, the latest
   std::vector<Fault> heard_;       ///< faults for the end of the tick in hand
-  bool fault_ = false;  ///< something was wrong at the tick last commanded
+  bool fault_ = false;             ///< something was wrong at the tick last commanded
   bool finished_ = false;
   int status_ = 0;
 };

@@ -9,8 +9,8 @@
 namespace mixloop {
 
 /// What a plant that was launched by `mixloop run` tells it over a pipe, a JSON object a line: {"tick": k}
-/// now and then, {"keeping": true} before results are written, {"result": {...}} once. Without a pipe nothing is
-/// said.
+/// now and then, {"keeping": true} before results are written, {"result": {...}} once. Without a pipe nothing
+/// is said.
 class ReportLine {
  public:
   explicit ReportLine(int fd) : fd_(fd) {}

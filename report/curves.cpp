@@ -15,7 +15,8 @@ constexpr double kStanding = 1e-9;  // m/s: below it a path has no direction of 
 Curves::Curves(std::size_t n, std::size_t m, std::vector<int> axes, double rate_hz, std::size_t capacity)
     : n_(n), axes_(std::move(axes)), rate_hz_(rate_hz) {
   const auto add_numbered = [&](const std::string& name, std::size_t count) {
-    for (std::size_t i = 1; i <= count; ++i) curves_.push_back({name + "_" + std::to_string(i), Envelope(capacity)});
+    for (std::size_t i = 1; i <= count; ++i)
+      curves_.push_back({name + "_" + std::to_string(i), Envelope(capacity)});
   };
   for (const char* name : {"psi", "psid", "psi_desired", "tau", "tau_applied", "motor_power"})
     add_numbered(name, n);
@@ -24,9 +25,9 @@ Curves::Curves(std::size_t n, std::size_t m, std::vector<int> axes, double rate_
     for (const char* what : {"position", "velocity", "acceleration"})
       for (const char axis : {'x', 'y', 'z'})
         curves_.push_back({std::string(what) + "_" + axis + "_" + kind, Envelope(capacity)});
-  for (const char* name : {"error", "error_x", "error_y", "error_z", "error_along", "error_across", "path_length",
-                           "kinetic_energy", "potential_energy", "work", "work_lost", "power", "energy_rate",
-                           "power_lost", "command_age"})
+  for (const char* name : {"error", "error_x", "error_y", "error_z", "error_along", "error_across",
+                           "path_length", "kinetic_energy", "potential_energy", "work", "work_lost", "power",
+                           "energy_rate", "power_lost", "command_age"})
     curves_.push_back({name, Envelope(capacity)});
 }
 

@@ -12,7 +12,8 @@ Envelope::Bucket Envelope::joined(const Bucket& first, const Bucket& second) {
   if (std::isnan(second.least)) return first;
   const bool least_first = first.least <= second.least, greatest_first = first.greatest >= second.greatest;
   // Both from one of them: its own order; else the one from `first` came first.
-  const bool falls = least_first == greatest_first ? (least_first ? first.falls : second.falls) : greatest_first;
+  const bool falls =
+      least_first == greatest_first ? (least_first ? first.falls : second.falls) : greatest_first;
   return {least_first ? first.least : second.least, greatest_first ? first.greatest : second.greatest, falls};
 }
 

@@ -19,7 +19,8 @@ class Envelope {
 
   std::int64_t width() const { return width_; }  ///< values a bucket, a power of two
   bool empty() const { return !seen_; }          ///< nothing but gaps
-  /// With a width of 1 the values; else of each bucket its least and greatest, in the order in which they came.
+  /// With a width of 1 the values; else of each bucket its least and greatest, in the order in which they
+  /// came.
   std::vector<float> points() const;
 
  private:

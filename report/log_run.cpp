@@ -41,7 +41,8 @@ struct Slot {
 /// Puts the messages of a session together, tick by tick.
 class Assembly {
  public:
-  Assembly(const LogSession& session, double rate_hz, std::size_t m, const std::function<void(Tick&)>& on_tick)
+  Assembly(const LogSession& session, double rate_hz, std::size_t m,
+           const std::function<void(Tick&)>& on_tick)
       : session_(session),
         rate_hz_(rate_hz),
         on_tick_(on_tick),
@@ -78,7 +79,8 @@ class Assembly {
 
  private:
   template <class Message>
-  void take(Inbox<Message>& inbox, const LogEvent& event, void (Assembly::*on)(const Message&, Slot&, std::int64_t)) {
+  void take(Inbox<Message>& inbox, const LogEvent& event,
+            void (Assembly::*on)(const Message&, Slot&, std::int64_t)) {
     const bool read = !inbox.read(event.data);
     Slot* slot = read ? slot_of(inbox.message.seq, std::is_same_v<Message, state_t>) : nullptr;
     if (slot)
@@ -98,7 +100,8 @@ class Assembly {
   }
 
   static void copy(const auto& from, auto& to) { std::copy(from.begin(), from.end(), to.begin()); }
-  static void copy_motion(const double* position, const double* velocity, const double* acceleration, Motion& to) {
+  static void copy_motion(const double* position, const double* velocity, const double* acceleration,
+                          Motion& to) {
     to.position = Eigen::Map<const Eigen::Vector3d>(position);
     to.velocity = Eigen::Map<const Eigen::Vector3d>(velocity);
     to.acceleration = Eigen::Map<const Eigen::Vector3d>(acceleration);
@@ -166,7 +169,8 @@ class Assembly {
     ++next_;
   }
 
-  // W(k) = W(k-1) + tau(k-1) . (psi(k) - psi(k-1)) for a torque that is held; over a gap the last one that is known.
+  // W(k) = W(k-1) + tau(k-1) . (psi(k) - psi(k-1)) for a torque that is held; over a gap the last one that is
+  // known.
   void add_work(Tick& tick) {
     if (!std::isnan(tick.psi[0])) {
       double work = 0;

@@ -29,7 +29,7 @@ struct TimingRow {
 /// What a log holds beside its ticks.
 struct LogFacts {
   std::int64_t states_missing = 0, commands_missing = 0, references_missing = 0;  ///< ticks without
-  std::int64_t dropped = 0;                                                        ///< messages that can't be read
+  std::int64_t dropped = 0;  ///< messages that can't be read
   bool has_truth = false, is_real_time = false, reached_safe_state = false;
   std::vector<TimingRow> timing;
   std::string damage;  ///< of the file, for a person; empty where there is none

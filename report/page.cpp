@@ -12,7 +12,9 @@ using nlohmann::ordered_json;
 
 constexpr std::string_view kPlace = R"(<script id="mixloop-data" type="application/json">null</script>)";
 
-ordered_json number_or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
+ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json();
+}
 
 ordered_json error_json(const TrackingError& error) {
   return {{"max", number_or_null(error.max)},
@@ -58,7 +60,8 @@ std::string with_data(const std::string& page, const ordered_json& data) {
     throw RunFault("missing_part", "the page has no place for its data; build it again (web/)");
   // Bad UTF-8 of a stranger's is replaced; '<' may end a script.
   std::string text = data.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-  for (std::size_t i = text.find('<'); i != std::string::npos; i = text.find('<', i)) text.replace(i, 1, "\\u003c");
+  for (std::size_t i = text.find('<'); i != std::string::npos; i = text.find('<', i))
+    text.replace(i, 1, "\\u003c");
   const std::size_t null = at + kPlace.find("null");
   return page.substr(0, null) + text + page.substr(null + 4);
 }
@@ -67,12 +70,18 @@ ordered_json page_data(const std::vector<ReportedRun>& runs) {
   ordered_json list = ordered_json::array();
   std::vector<float> values;
   for (const auto& run : runs) {
-    ordered_json json = {{"label", run.label},         {"source", run.source},
-                         {"from_log", run.from_log},   {"rate", run.rate_hz},
-                         {"first_tick", run.first_tick}, {"ticks", run.curves.ticks()},
-                         {"width", run.curves.width()}, {"error", error_json(run.curves.tracking_error())},
-                         {"names", names_json(run)},   {"notes", run.notes},
-                         {"result", run.result},       {"inputs", run.inputs},
+    ordered_json json = {{"label", run.label},
+                         {"source", run.source},
+                         {"from_log", run.from_log},
+                         {"rate", run.rate_hz},
+                         {"first_tick", run.first_tick},
+                         {"ticks", run.curves.ticks()},
+                         {"width", run.curves.width()},
+                         {"error", error_json(run.curves.tracking_error())},
+                         {"names", names_json(run)},
+                         {"notes", run.notes},
+                         {"result", run.result},
+                         {"inputs", run.inputs},
                          {"log", run.facts ? log_json(*run.facts) : ordered_json()},
                          {"curves", ordered_json::object()}};
     for (const auto& curve : run.curves.all()) {
@@ -84,7 +93,8 @@ ordered_json page_data(const std::vector<ReportedRun>& runs) {
     }
     list.push_back(std::move(json));
   }
-  return {{"mixloop", MIXLOOP_VERSION}, {"runs", list}, {"values", values.size()}, {"curves", packed(values)}};
+  return {
+      {"mixloop", MIXLOOP_VERSION}, {"runs", list}, {"values", values.size()}, {"curves", packed(values)}};
 }
 
 std::string report_page(const std::string& page, std::vector<ReportedRun>& runs, std::size_t most_bytes) {

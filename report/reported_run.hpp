@@ -12,7 +12,8 @@ struct ReportedRun : RunFile {
   std::optional<LogFacts> facts;  ///< of its log, where it has one
 };
 
-/// Reads all ticks of a run; `capacity`: buckets a curve, see Envelope. Throws what open_run and read_ticks throw.
+/// Reads all ticks of a run; `capacity`: buckets a curve, see Envelope. Throws what open_run and read_ticks
+/// throw.
 ReportedRun read_run(const std::filesystem::path& path, const ReadOptions& options, std::size_t capacity);
 
 }  // namespace mixloop

@@ -42,7 +42,8 @@ Known from_inputs(const std::filesystem::path& file) {
   Known known{.inputs = read_json(file)};
   const auto at = [&](const char* key) -> const ordered_json& {
     if (!known.inputs.contains(key))
-      throw InputError("missing_key", {file.string()}, fmt::format("has no '{}'; expected what --out keeps", key));
+      throw InputError("missing_key", {file.string()},
+                       fmt::format("has no '{}'; expected what --out keeps", key));
     return known.inputs.at(key);
   };
   known.scene = std::make_shared<const Scene>(
@@ -71,12 +72,14 @@ LogSession chosen_session(const std::filesystem::path& log, const ReadOptions& o
                                [&](const LogSession& s) { return wanted == 0 || s.session == wanted; });
   if (at == sessions.end()) {
     std::string list;
-    for (const auto& session : sessions) list += fmt::format("{}{}", list.empty() ? "" : ", ", session.session);
-    throw InputError("no_such_session", {log.string()}, fmt::format("no session {}; it has {}", wanted, list));
+    for (const auto& session : sessions)
+      list += fmt::format("{}{}", list.empty() ? "" : ", ", session.session);
+    throw InputError("no_such_session", {log.string()},
+                     fmt::format("no session {}; it has {}", wanted, list));
   }
   if (sessions.size() > 1)
-    notes.push_back(fmt::format("The log has {} sessions; this is {}. Another: --session ID.", sessions.size(),
-                                at->session));
+    notes.push_back(fmt::format("The log has {} sessions; this is {}. Another: --session ID.",
+                                sessions.size(), at->session));
   return *at;
 }
 
@@ -93,7 +96,9 @@ void add_notes(const LogFacts& facts, std::vector<std::string>& notes) {
 
 /// What is known before the ticks: of a folder, then of a log.
 RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& options, Known known) {
-  RunFile run{.label = folder.filename().string(), .source = folder.string(), .trajectory = folder / "trajectory.csv"};
+  RunFile run{.label = folder.filename().string(),
+              .source = folder.string(),
+              .trajectory = folder / "trajectory.csv"};
   run.n = TrajectoryReader(run.trajectory).n();
   run.result = read_json(folder / "result.json");
   run.label = run.result.value("experiment", run.label);
@@ -124,11 +129,13 @@ void take_arrivals(const std::filesystem::path& file, double rate_hz, std::vecto
     if (arrival.command >= kLongest) break;
     const auto k = static_cast<std::size_t>(arrival.command);
     if (k >= ages.size()) ages.resize(k + 1, kUnknown);
-    ages[k] = static_cast<double>(arrival.tick - arrival.command) / rate_hz + static_cast<double>(arrival.offset) * 1e-9;
+    ages[k] = static_cast<double>(arrival.tick - arrival.command) / rate_hz +
+              static_cast<double>(arrival.offset) * 1e-9;
   }
 }
 
-std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism, const std::function<void(Tick&)>& on_tick) {
+std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism,
+                                    const std::function<void(Tick&)>& on_tick) {
   std::optional<LogFacts> facts;
   std::vector<double> ages;
   if (run.session) {
@@ -159,11 +166,13 @@ LogFacts read_log_alone(RunFile& run, Mechanism* mechanism, const std::function<
   add_notes(facts, run.notes);
   if (!facts.has_truth && run.scene)
     run.notes.push_back(
-        "The log has no TRUTH: the end effector's motion and the energies are worked out from the measured state and "
+        "The log has no TRUTH: the end effector's motion and the energies are worked out from the measured "
+        "state and "
         "the commanded torque by the scene.");
   if (!facts.has_truth && !run.scene)
     run.notes.push_back(
-        "The log has no TRUTH and no inputs.json beside it: without the scene (--experiment FILE) there is no actual "
+        "The log has no TRUTH and no inputs.json beside it: without the scene (--experiment FILE) there is "
+        "no actual "
         "motion of the end effector.");
   return facts;
 }
@@ -187,7 +196,8 @@ RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) 
   run.parameters = known.parameters;
   if (run.scene) run.m = static_cast<std::size_t>(run.scene->m());
   if (run.scene && static_cast<std::size_t>(run.scene->n()) != run.n)
-    throw InputError("wrong_size", {run.source}, fmt::format("{} motors; the scene has {}", run.n, run.scene->n()));
+    throw InputError("wrong_size", {run.source},
+                     fmt::format("{} motors; the scene has {}", run.n, run.scene->n()));
   return run;
 }
 

@@ -37,12 +37,12 @@ struct RunFile {
   std::vector<std::string> notes;  ///< what a reader must know of where the numbers come from
 };
 
-/// Opens a folder that --out kept (result.json, trajectory.csv, and of run.lcmlog the ages of commands), or a log of
-/// ours or of lcm-logger. Throws InputError for what is neither.
+/// Opens a folder that --out kept (result.json, trajectory.csv, and of run.lcmlog the ages of commands), or a
+/// log of ours or of lcm-logger. Throws InputError for what is neither.
 RunFile open_run(const std::filesystem::path& path, const ReadOptions& options);
 
-/// Calls `on_tick` for every tick, completed by the scene where one is known. What a log lacks is added to the
-/// run's notes. Throws InputError, with its place, where the file is damaged.
+/// Calls `on_tick` for every tick, completed by the scene where one is known. What a log lacks is added to
+/// the run's notes. Throws InputError, with its place, where the file is damaged.
 std::optional<LogFacts> read_ticks(RunFile& run, const std::function<void(Tick&)>& on_tick);
 
 }  // namespace mixloop

@@ -20,12 +20,7 @@ struct Motion {
 /// All that is known of one tick of a run; the rest is kUnknown. SI, radians.
 struct Tick {
   explicit Tick(std::size_t n, std::size_t m = 0)
-      : psi(n, kUnknown),
-        psid(psi),
-        psi_desired(psi),
-        tau(psi),
-        tau_applied(psi),
-        q(m, kUnknown) {}
+      : psi(n, kUnknown), psid(psi), psi_desired(psi), tau(psi), tau_applied(psi), q(m, kUnknown) {}
 
   std::int64_t k = 0;
   double t = kUnknown;

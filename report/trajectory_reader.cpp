@@ -96,8 +96,8 @@ void TrajectoryReader::read(std::size_t m, const std::function<void(Tick&)>& on_
       const char behind = i + 1 < places.size() ? ',' : '\n';
       if (error != std::errc() || (stop == end ? behind != '\n' : *stop != behind))
         throw InputError("not_a_trajectory", {file_.string(), line},
-                         fmt::format("no number for {} ({} columns are expected; is the file cut off?)", names_[i],
-                                     names_.size()));
+                         fmt::format("no number for {} ({} columns are expected; is the file cut off?)",
+                                     names_[i], names_.size()));
       if (places[i]) *places[i] = value;
       at = stop == end ? end : stop + 1;
     }

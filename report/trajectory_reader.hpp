@@ -20,8 +20,8 @@ class TrajectoryReader {
   TrajectoryReader& operator=(const TrajectoryReader&) = delete;
 
   std::size_t n() const { return n_; }  ///< motors
-  /// Calls `on_tick` for every line, k counting from 0; it may complete the tick. Throws InputError for a line that has not as many
-  /// numbers as the header has names.
+  /// Calls `on_tick` for every line, k counting from 0; it may complete the tick. Throws InputError for a
+  /// line that has not as many numbers as the header has names.
   void read(std::size_t m, const std::function<void(Tick&)>& on_tick);
 
  private:

@@ -254,8 +254,10 @@ std::vector<std::string> Watch::warnings() const {
   say(command_flags_ & command_t::FLAG_JOINED_LATE, "the controller joined late");
   say(command_flags_ & command_t::FLAG_LIMITED, "the controller limits its torque");
   const auto ahead = extrapolated_by(command_flags_);
-  say(ahead > 0, "the planner is late: its reference is extrapolated, by " + std::to_string(ahead) + " ticks");
-  say(command_flags_ & command_t::FLAG_SAFE, "the controller sends a safe command" + why_safe(command_flags_));
+  say(ahead > 0,
+      "the planner is late: its reference is extrapolated, by " + std::to_string(ahead) + " ticks");
+  say(command_flags_ & command_t::FLAG_SAFE,
+      "the controller sends a safe command" + why_safe(command_flags_));
   say(command_flags_ & command_t::FLAG_STOPPED, "the controller has stopped");
   say(truth_flags_ & truth_t::FLAG_SATURATED, "a motor's torque is at its limit");
   say(truth_flags_ & truth_t::FLAG_FAULT, "an injected fault is active");

@@ -26,7 +26,8 @@ std::optional<fs::path> wanted_directory() {
   };
   if (auto chosen = absolute("MIXLOOP_CACHE")) return chosen;
   if (auto cache = absolute("XDG_CACHE_HOME")) return *cache / "mixloop";
-  if (auto home = absolute("HOME"); home && ::access(home->c_str(), W_OK) == 0) return *home / ".cache" / "mixloop";
+  if (auto home = absolute("HOME"); home && ::access(home->c_str(), W_OK) == 0)
+    return *home / ".cache" / "mixloop";
   std::error_code failed;
   const fs::path temporary = fs::temp_directory_path(failed);
   if (failed) return std::nullopt;

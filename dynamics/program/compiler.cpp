@@ -41,7 +41,8 @@ std::optional<Compiler> compiler_at(const std::string& name) {
   struct stat info {};
   if (failed || ::stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return std::nullopt;
   std::ostringstream identity;
-  identity << file.string() << ' ' << info.st_size << ' ' << info.st_mtim.tv_sec << '.' << info.st_mtim.tv_nsec;
+  identity << file.string() << ' ' << info.st_size << ' ' << info.st_mtim.tv_sec << '.'
+           << info.st_mtim.tv_nsec;
   return Compiler{*path, identity.str()};
 }
 
@@ -67,7 +68,8 @@ std::optional<Compiler> find_compiler() {
 
 const std::vector<std::string>& machine_code_flags() {
   static const std::vector<std::string> flags = {
-      "-std=c++17", "-O2", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-fno-plt", "-fPIC", "-shared"};
+      "-std=c++17",      "-O2",      "-march=native", "-ffp-contract=off",
+      "-fno-math-errno", "-fno-plt", "-fPIC",         "-shared"};
   return flags;
 }
 
@@ -96,7 +98,8 @@ bool build_shared_object(const Compiler& compiler, const fs::path& source, const
   ::posix_spawn_file_actions_destroy(&actions);
   int status = -1;
   if (failed == 0)
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
   if (failed == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
   std::ifstream said(log);
   complaint.assign(std::istreambuf_iterator<char>(said), {});

@@ -37,7 +37,9 @@ class Counted {
   friend Counted cos(const Counted& x) { return std::cos(x.value_); }
   friend Counted exp(const Counted& x) { return ++count().other, std::exp(x.value_); }
   friend Counted log(const Counted& x) { return ++count().other, std::log(x.value_); }
-  friend Counted atan2(const Counted& y, const Counted& x) { return ++count().other, std::atan2(y.value_, x.value_); }
+  friend Counted atan2(const Counted& y, const Counted& x) {
+    return ++count().other, std::atan2(y.value_, x.value_);
+  }
 
  private:
   double value_ = 0.0;
@@ -52,6 +54,14 @@ struct NumTraits<mixloop::Counted> : GenericNumTraits<double> {
   using NonInteger = mixloop::Counted;
   using Nested = mixloop::Counted;
   using Literal = mixloop::Counted;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };
 }  // namespace Eigen

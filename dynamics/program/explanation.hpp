@@ -17,7 +17,7 @@ struct Explanation {
     OperationCount run;      ///< of the program
     OperationCount set_up;   ///< of what runs when a parameter changes
     Tracing tracing;
-    bool compiled = true;    ///< false: too long, interpreted
+    bool compiled = true;  ///< false: too long, interpreted
   };
 
   std::vector<Quantity> quantities;

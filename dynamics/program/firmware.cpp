@@ -12,15 +12,24 @@ namespace {
 // What a purpose's `input` and `out` hold, column by column.
 std::string_view meaning(Purpose purpose) {
   switch (purpose) {
-    case Purpose::forward_dynamics: return "input: tau (n); out: psidd (n)";
-    case Purpose::mass_times: return "input: a (n); out: M a (n)";
-    case Purpose::mass_matrix: return "input: none; out: M (n x n)";
-    case Purpose::bias: return "input: none; out: h (n)";
-    case Purpose::inverse_dynamics: return "input: psidd (n); out: M psidd + h (n)";
-    case Purpose::end_effector: return "input: psidd (n); out: position, velocity, acceleration (3 each), Jacobian (3 x n)";
-    case Purpose::energy: return "input: none; out: kinetic energy, potential";
-    case Purpose::linearisation: return "input: tau (n); out: d psidd / d psi, d psidd / d psid, d psidd / d tau (n x n each)";
-    case Purpose::dynamics_and_mass_times: return "input: tau, a (n each); out: psidd, M a (n each)";
+    case Purpose::forward_dynamics:
+      return "input: tau (n); out: psidd (n)";
+    case Purpose::mass_times:
+      return "input: a (n); out: M a (n)";
+    case Purpose::mass_matrix:
+      return "input: none; out: M (n x n)";
+    case Purpose::bias:
+      return "input: none; out: h (n)";
+    case Purpose::inverse_dynamics:
+      return "input: psidd (n); out: M psidd + h (n)";
+    case Purpose::end_effector:
+      return "input: psidd (n); out: position, velocity, acceleration (3 each), Jacobian (3 x n)";
+    case Purpose::energy:
+      return "input: none; out: kinetic energy, potential";
+    case Purpose::linearisation:
+      return "input: tau (n); out: d psidd / d psi, d psidd / d psid, d psidd / d tau (n x n each)";
+    case Purpose::dynamics_and_mass_times:
+      return "input: tau, a (n each); out: psidd, M a (n each)";
   }
   return "";
 }
@@ -36,7 +45,8 @@ std::string firmware_source(const std::shared_ptr<const Scene>& scene, const std
       "// Scene: SHA-256 {}, {} independent and {} dependent coordinates, {} parameters.\n"
       "//\n"
       "// double k[PREFIX_constants]; PREFIX_set_up(parameters, k);      once, and when a parameter changes\n"
-      "// PREFIX(psi, psid, input, t, k, out);                           an evaluation; matrices column by column\n"
+      "// PREFIX(psi, psid, input, t, k, out);                           an evaluation; matrices column by "
+      "column\n"
       "//\n",
       sha256_hex(scene->canonical), scene->n(), scene->m(), scene->parameters.size());
   std::string body;

@@ -12,7 +12,8 @@ class Interpreter final : public Routine {
   explicit Interpreter(const Program& program) : tape_(make_tape(program)) {}
 
   void set_up(std::span<const double> parameters) noexcept override;
-  void run(const double* psi, const double* psid, const double* input, double t, double* outputs) noexcept override;
+  void run(const double* psi, const double* psid, const double* input, double t,
+           double* outputs) noexcept override;
 
  private:
   Tape tape_;

@@ -11,7 +11,8 @@ std::string OperationCount::text() const {
   auto say = [&](std::size_t count, const char* name) {
     if (count > 0) result += (result.empty() ? "" : " + ") + std::to_string(count) + " " + name;
   };
-  say(add, "add"), say(mul, "mul"), say(div, "div"), say(sqrt, "sqrt"), say(other, "exp/log/atan2"), say(sincos, "sincos");
+  say(add, "add"), say(mul, "mul"), say(div, "div"), say(sqrt, "sqrt"), say(other, "exp/log/atan2"),
+      say(sincos, "sincos");
   return result.empty() ? "nothing" : result;
 }
 
@@ -20,7 +21,8 @@ namespace {
 Program::Stage stage_of(const ExpressionNode& node, const std::vector<Program::Stage>& known) {
   using Stage = Program::Stage;
   if (node.op == Op::constant) return Stage::constant;
-  if (node.op == Op::input) return static_cast<Block>(node.a) == Block::parameter ? Stage::set_up : Stage::run;
+  if (node.op == Op::input)
+    return static_cast<Block>(node.a) == Block::parameter ? Stage::set_up : Stage::run;
   return is_binary(node.op) ? std::max(known[node.a], known[node.b]) : known[node.a];
 }
 
@@ -52,18 +54,31 @@ OperationCount Program::operations(Stage stage) const {
     if (stages[id] != stage) continue;
     switch (nodes[id].op) {
       case Op::constant:
-      case Op::input: break;
+      case Op::input:
+        break;
       case Op::neg:
       case Op::add:
-      case Op::sub: ++count.add; break;
-      case Op::mul: ++count.mul; break;
-      case Op::div: ++count.div; break;
-      case Op::sqrt: ++count.sqrt; break;
+      case Op::sub:
+        ++count.add;
+        break;
+      case Op::mul:
+        ++count.mul;
+        break;
+      case Op::div:
+        ++count.div;
+        break;
+      case Op::sqrt:
+        ++count.sqrt;
+        break;
       case Op::sin:
-      case Op::cos: count.sincos += partner[id] > id; break;
+      case Op::cos:
+        count.sincos += partner[id] > id;
+        break;
       case Op::exp:
       case Op::log:
-      case Op::atan2: ++count.other; break;
+      case Op::atan2:
+        ++count.other;
+        break;
     }
   }
   return count;

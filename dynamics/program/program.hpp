@@ -29,7 +29,7 @@ struct Program {
   enum class Stage : std::uint8_t { constant, set_up, run };
 
   std::vector<ExpressionNode> nodes;
-  std::vector<Stage> stages;     ///< when each node's value is known
+  std::vector<Stage> stages;  ///< when each node's value is known
   std::vector<NodeId> outputs;
 
   OperationCount set_up_operations() const { return operations(Stage::set_up); }

@@ -24,8 +24,10 @@ std::string listed(const Sentences& names) { return fmt::format("{}", fmt::join(
 class FreeTree {
  public:
   explicit FreeTree(const std::shared_ptr<const Scene>& scene)
-      : scene_(scene), values_(scene->default_parameters()),
-        model_(make_model<double>(scene, std::span<const double>(values_))), workspace_(model_) {
+      : scene_(scene),
+        values_(scene->default_parameters()),
+        model_(make_model<double>(scene, std::span<const double>(values_))),
+        workspace_(model_) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int j = 0; j < scene->m(); ++j) q_.push_back(unit(random));
@@ -52,7 +54,9 @@ class FreeTree {
   }
 
  private:
-  const Mat34<double>& frame(int index) const { return workspace_.frames[static_cast<std::size_t>(index)].T_0; }
+  const Mat34<double>& frame(int index) const {
+    return workspace_.frames[static_cast<std::size_t>(index)].T_0;
+  }
   void place() {
     for (int j = 0; j < scene_->m(); ++j) workspace_.q[j] = q_[static_cast<std::size_t>(j)];
     frame_variations(model_, workspace_);
@@ -83,9 +87,11 @@ void about_constraints(const std::shared_ptr<const Scene>& scene, Graph& graph, 
       zeros += c.is_number() && c.number() == 0.0;
     }
   }
-  say.push_back(constant ? "The constraints are affine with constant coefficients: C is constant, so C-dot and all that it multiplies vanish."
+  say.push_back(constant ? "The constraints are affine with constant coefficients: C is constant, so C-dot "
+                           "and all that it multiplies vanish."
                          : "C varies with the pose: C-dot is needed.");
-  if (zeros > 0) say.push_back(fmt::format("{} of C's {} elements are zero.", zeros, scene->m() * scene->n()));
+  if (zeros > 0)
+    say.push_back(fmt::format("{} of C's {} elements are zero.", zeros, scene->m() * scene->n()));
   const auto is_needed = needed(graph, nodes);
   if (!is_needed[in.t.node()]) say.push_back("No constraint depends on time: no F_t, F_tt or mixed term.");
 }
@@ -105,15 +111,23 @@ void about_coordinates(const std::shared_ptr<const Scene>& scene, Sentences& say
     const bool moves_hand = (tree.hand() - hand).norm() > 1e-12;
     tree.q()[j] -= 0.7;
     const auto at = static_cast<Eigen::Index>(j);
-    if (S.row(at).isZero(0) && !lifts && !moves_hand) no_use.push_back(name);
-    else if (!turns_S) no_inertia.push_back(name);
+    if (S.row(at).isZero(0) && !lifts && !moves_hand)
+      no_use.push_back(name);
+    else if (!turns_S)
+      no_inertia.push_back(name);
     if (!lifts && !S.row(at).isZero(0)) no_weight.push_back(name);
   }
   if (!no_inertia.empty())
-    say.push_back(fmt::format("No inertia depends on {}: what turns there turns as a whole, so its sine and cosine are not needed.", listed(no_inertia)));
-  if (!no_weight.empty() && scene->gravity[0].is_zero() + scene->gravity[1].is_zero() + scene->gravity[2].is_zero() < 3)
-    say.push_back(fmt::format("The potential does not depend on {}: gravity is parallel to the axis, or nothing is lifted.", listed(no_weight)));
-  if (!no_use.empty()) say.push_back(fmt::format("{} move no mass and not the end effector: skipped.", listed(no_use)));
+    say.push_back(fmt::format(
+        "No inertia depends on {}: what turns there turns as a whole, so its sine and cosine are not needed.",
+        listed(no_inertia)));
+  if (!no_weight.empty() &&
+      scene->gravity[0].is_zero() + scene->gravity[1].is_zero() + scene->gravity[2].is_zero() < 3)
+    say.push_back(fmt::format(
+        "The potential does not depend on {}: gravity is parallel to the axis, or nothing is lifted.",
+        listed(no_weight)));
+  if (!no_use.empty())
+    say.push_back(fmt::format("{} move no mass and not the end effector: skipped.", listed(no_use)));
 }
 
 void about_axes(const std::shared_ptr<const Scene>& scene, Sentences& say) {
@@ -124,8 +138,13 @@ void about_axes(const std::shared_ptr<const Scene>& scene, Sentences& say) {
     if (std::fabs(quarters - std::round(quarters)) > 1e-12) continue;
     (std::fabs(std::remainder(quarters, 2.0)) < 0.5 ? parallel : right) += 1;
   }
-  if (parallel > 0) say.push_back(fmt::format("{} of {} transforms leave the axis parallel: their angles add, and the sums take the place of the products of their sines and cosines.", parallel, scene->transforms.size()));
-  if (right > 0) say.push_back(fmt::format("{} turn it by a right angle: zeros and ones, no products.", right));
+  if (parallel > 0)
+    say.push_back(
+        fmt::format("{} of {} transforms leave the axis parallel: their angles add, and the sums take the "
+                    "place of the products of their sines and cosines.",
+                    parallel, scene->transforms.size()));
+  if (right > 0)
+    say.push_back(fmt::format("{} turn it by a right angle: zeros and ones, no products.", right));
 }
 
 // Bodies: what has no mass, no inertia, or inertia that never acts.
@@ -135,7 +154,8 @@ void about_bodies(const std::shared_ptr<const Scene>& scene, Sentences& say) {
   const Matrix S = tree.mass_matrix();
   for (std::size_t i = 0; i < tree.model().bodies.size(); ++i) {
     auto& body = tree.model().bodies[i];
-    const std::string name = scene->bodies[i].name.empty() ? fmt::format("body {}", i + 1) : scene->bodies[i].name;
+    const std::string name =
+        scene->bodies[i].name.empty() ? fmt::format("body {}", i + 1) : scene->bodies[i].name;
     if (scene->bodies[i].mass.is_zero()) say.push_back(fmt::format("{} is massless.", name));
     if (body.inertia.isZero(0)) {
       say.push_back(fmt::format("{} is a point mass: no moment of inertia.", name));
@@ -149,8 +169,11 @@ void about_bodies(const std::shared_ptr<const Scene>& scene, Sentences& say) {
       if (!differ(tree.mass_matrix(), S)) idle.push_back(kAxes[a]);
       body.inertia(a, a) = kept;
     }
-    if (!none.empty()) say.push_back(fmt::format("{} has no moment of inertia about {}.", name, listed(none)));
-    if (!idle.empty()) say.push_back(fmt::format("{} never turns about its {}: that moment of inertia is skipped.", name, listed(idle)));
+    if (!none.empty())
+      say.push_back(fmt::format("{} has no moment of inertia about {}.", name, listed(none)));
+    if (!idle.empty())
+      say.push_back(
+          fmt::format("{} never turns about its {}: that moment of inertia is skipped.", name, listed(idle)));
   }
 }
 
@@ -160,7 +183,8 @@ std::string row_text(const Eigen::RowVectorXd& row, const Scene& scene) {
     if (row[k] == 0.0) continue;
     const double size = std::fabs(row[k]);
     const std::string factor = size == 1.0 ? "" : fmt::format("{:.6g} ", size);
-    text += (text.empty() ? (row[k] < 0 ? "-" : "") : (row[k] < 0 ? " - " : " + ")) + factor + scene.motors[static_cast<std::size_t>(k)].name + "'";
+    text += (text.empty() ? (row[k] < 0 ? "-" : "") : (row[k] < 0 ? " - " : " + ")) + factor +
+            scene.motors[static_cast<std::size_t>(k)].name + "'";
   }
   return text;
 }
@@ -168,13 +192,17 @@ std::string row_text(const Eigen::RowVectorXd& row, const Scene& scene) {
 void about_energy(const std::shared_ptr<const Scene>& scene, Graph& graph, Sentences& say) {
   const auto energy = harmonic_energy(scene, graph);
   if (!energy) {
-    say.push_back("Its energy is no small trigonometric polynomial of the independent angles: traced frame by frame along the tree.");
+    say.push_back(
+        "Its energy is no small trigonometric polynomial of the independent angles: traced frame by frame "
+        "along the tree.");
     return;
   }
   if (const auto angles = evaluation_angles(*energy)) {
     std::size_t joints = 0;
-    for (const auto& transform : scene->transforms) joints += transform.coordinate.has_value() && !transform.prismatic;
-    say.push_back(fmt::format("{} joint angles come down to {} sine/cosine pairs.", joints, angles->angles.size()));
+    for (const auto& transform : scene->transforms)
+      joints += transform.coordinate.has_value() && !transform.prismatic;
+    say.push_back(
+        fmt::format("{} joint angles come down to {} sine/cosine pairs.", joints, angles->angles.size()));
   }
   const auto bases = candidate_bases(*energy, 1);
   if (bases.empty()) return;
@@ -186,7 +214,8 @@ void about_energy(const std::shared_ptr<const Scene>& scene, Graph& graph, Sente
     for (int i : block) rates.push_back(row_text(form.B.row(i), *scene));
     blocks.push_back("{" + listed(rates) + "}");
   }
-  say.push_back(fmt::format("The mass matrix is block diagonal in the rates {}: solved block by block.", fmt::join(blocks, " and ")));
+  say.push_back(fmt::format("The mass matrix is block diagonal in the rates {}: solved block by block.",
+                            fmt::join(blocks, " and ")));
 }
 
 }  // namespace
@@ -204,7 +233,10 @@ std::vector<std::string> reasons_of(const std::shared_ptr<const Scene>& scene) {
   if (!scene->parameters.empty()) {
     Sentences names;
     for (const auto& parameter : scene->parameters) names.push_back(parameter.name);
-    say.push_back(fmt::format("Parameters ({}) stay variable: what depends on them alone is computed when they change, not in an evaluation.", listed(names)));
+    say.push_back(
+        fmt::format("Parameters ({}) stay variable: what depends on them alone is computed when they change, "
+                    "not in an evaluation.",
+                    listed(names)));
   }
   return say;
 }

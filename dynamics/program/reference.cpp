@@ -18,21 +18,35 @@ double* put(const Eigen::MatrixBase<Derived>& values, double* out) {
 class Reference final : public Routine {
  public:
   Reference(std::shared_ptr<const Scene> scene, Purpose purpose)
-      : scene_(std::move(scene)), purpose_(purpose), n_(static_cast<std::size_t>(scene_->n())),
-        model_(make_model<double>(scene_, std::span<const double>(scene_->default_parameters()))), workspace_(model_) {}
+      : scene_(std::move(scene)),
+        purpose_(purpose),
+        n_(static_cast<std::size_t>(scene_->n())),
+        model_(make_model<double>(scene_, std::span<const double>(scene_->default_parameters()))),
+        workspace_(model_) {}
 
   void set_up(std::span<const double> parameters) noexcept override {
     model_ = make_model<double>(scene_, parameters);
   }
 
-  void run(const double* psi_at, const double* psid_at, const double* input_at, double t, double* out) noexcept override {
+  void run(const double* psi_at, const double* psid_at, const double* input_at, double t,
+           double* out) noexcept override {
     const std::span<const double> psi(psi_at, n_), psid(psid_at, n_), input(input_at, n_);
     switch (purpose_) {
-      case Purpose::forward_dynamics: put(forward_dynamics<double>(model_, psi, psid, input, t, workspace_), out); break;
-      case Purpose::mass_times: times_mass(psi, input_at, t, out); break;
-      case Purpose::mass_matrix: put(mass_matrix<double>(model_, psi, t, workspace_), out); break;
-      case Purpose::bias: put(bias<double>(model_, psi, psid, t, workspace_), out); break;
-      case Purpose::inverse_dynamics: put(inverse_dynamics<double>(model_, psi, psid, input, t, workspace_), out); break;
+      case Purpose::forward_dynamics:
+        put(forward_dynamics<double>(model_, psi, psid, input, t, workspace_), out);
+        break;
+      case Purpose::mass_times:
+        times_mass(psi, input_at, t, out);
+        break;
+      case Purpose::mass_matrix:
+        put(mass_matrix<double>(model_, psi, t, workspace_), out);
+        break;
+      case Purpose::bias:
+        put(bias<double>(model_, psi, psid, t, workspace_), out);
+        break;
+      case Purpose::inverse_dynamics:
+        put(inverse_dynamics<double>(model_, psi, psid, input, t, workspace_), out);
+        break;
       case Purpose::end_effector: {
         const auto& state = end_effector<double>(model_, psi, psid, input, t, workspace_);
         put(state.jacobian, put(state.acceleration, put(state.velocity, put(state.position, out))));
@@ -48,7 +62,8 @@ class Reference final : public Routine {
         put(forward_dynamics<double>(model_, psi, psid, input, t, workspace_), out);
         times_mass(psi, input_at + n_, t, out + n_);
         break;
-      case Purpose::linearisation: break;  // has no reference: see reference_routine
+      case Purpose::linearisation:
+        break;  // has no reference: see reference_routine
     }
   }
 

@@ -22,9 +22,12 @@ class Routine {
   /// Runs the set-up part: once before the first evaluation, and again when a parameter changes.
   virtual void set_up(std::span<const double> parameters) noexcept = 0;
   /// Writes the outputs. No allocation, lock or exception.
-  virtual void run(const double* psi, const double* psid, const double* input, double t, double* outputs) noexcept = 0;
+  virtual void run(const double* psi, const double* psid, const double* input, double t,
+                   double* outputs) noexcept = 0;
 
-  void evaluate(const Arguments& in, double* outputs) noexcept { run(in.psi, in.psid, in.input, in.t, outputs); }
+  void evaluate(const Arguments& in, double* outputs) noexcept {
+    run(in.psi, in.psid, in.input, in.t, outputs);
+  }
 };
 
 }  // namespace mixloop

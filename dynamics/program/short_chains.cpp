@@ -13,14 +13,20 @@ namespace {
 int latency(Op op) {
   switch (op) {
     case Op::constant:
-    case Op::input: return 0;
-    case Op::neg: return 1;
+    case Op::input:
+      return 0;
+    case Op::neg:
+      return 1;
     case Op::add:
     case Op::sub:
-    case Op::mul: return 4;
-    case Op::div: return 14;
-    case Op::sqrt: return 18;
-    default: return 70;
+    case Op::mul:
+      return 4;
+    case Op::div:
+      return 14;
+    case Op::sqrt:
+      return 18;
+    default:
+      return 70;
   }
 }
 
@@ -28,7 +34,8 @@ bool is_sum(Op op) { return op == Op::add || op == Op::sub; }
 
 class Rebuilder {
  public:
-  explicit Rebuilder(const Program& program) : program_(program), inner_(inner()), values_(program.nodes.size()) {}
+  explicit Rebuilder(const Program& program)
+      : program_(program), inner_(inner()), values_(program.nodes.size()) {}
 
   Program rebuilt() {
     Graph graph;
@@ -87,7 +94,8 @@ class Rebuilder {
     const int known = runs ? a.known + latency(n.op) : 0;
     if (!is_binary(n.op)) return {Expression::unary(n.op, a.is), known, false, id};
     const Value& b = values_[n.b];
-    return {Expression::binary(n.op, a.is, b.is), runs ? std::max(a.known, b.known) + latency(n.op) : 0, false, id};
+    return {Expression::binary(n.op, a.is, b.is), runs ? std::max(a.known, b.known) + latency(n.op) : 0,
+            false, id};
   }
 
   // A whole sum or product, the two that are known first taken together until one is left.
@@ -102,8 +110,8 @@ class Rebuilder {
       waiting.pop();
       if (x.opposite && !y.opposite) std::swap(x, y);
       const Op op = !sum ? Op::mul : x.opposite == y.opposite ? Op::add : Op::sub;
-      waiting.push({Expression::binary(op, x.is, y.is), runs ? std::max(x.known, y.known) + latency(op) : 0, x.opposite,
-                    std::max(x.order, y.order)});
+      waiting.push({Expression::binary(op, x.is, y.is), runs ? std::max(x.known, y.known) + latency(op) : 0,
+                    x.opposite, std::max(x.order, y.order)});
     }
     Value whole = waiting.top();
     if (whole.opposite) whole.is = -whole.is;

@@ -22,8 +22,8 @@ constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
 constexpr double kHigh = 0x1.921fb544p+0;
 constexpr double kMiddle = 0x1.0b4611a6p-34;
 constexpr double kLow = 0x1.3198a2e037073p-69;
-constexpr double kLimit = 0x1p+20;   // beyond it, the C library's
-constexpr double kRound = 0x1.8p+52; // adding it rounds to the nearest whole number, kept in the low bits
+constexpr double kLimit = 0x1p+20;    // beyond it, the C library's
+constexpr double kRound = 0x1.8p+52;  // adding it rounds to the nearest whole number, kept in the low bits
 
 // sin r = r + r^3 (S0 + S1 r^2 + ...), |r| <= pi/4, z = r^2; FreeBSD's coefficients, error below 2^-58. In
 // Estrin's order, whose chains are short.

@@ -22,7 +22,8 @@ using Lanes4 = Vectors<4>::Real;
 using Lanes8 = Vectors<8>::Real;
 
 template <int kLanes, class Function>
-MIXLOOP_INLINE typename Vectors<kLanes>::Real lane_by_lane(typename Vectors<kLanes>::Real x, Function function) {
+MIXLOOP_INLINE typename Vectors<kLanes>::Real lane_by_lane(typename Vectors<kLanes>::Real x,
+                                                           Function function) {
   for (int i = 0; i < kLanes; ++i) x[i] = function(x[i]);
   return x;
 }
@@ -80,12 +81,12 @@ MIXLOOP_INLINE void sincos_of(const mixloop_lanes::Lanes8 (&x)[kCount], mixloop_
 }  // namespace mixloop_sincos
 
 namespace {
-#define MIXLOOP_LANE_BY_LANE(name, function)                                          \
-  MIXLOOP_INLINE mixloop_lanes::Lanes4 name(mixloop_lanes::Lanes4 x) {                        \
-    return mixloop_lanes::lane_by_lane<4>(x, [](double y) { return function(y); });   \
-  }                                                                                   \
-  MIXLOOP_INLINE mixloop_lanes::Lanes8 name(mixloop_lanes::Lanes8 x) {                        \
-    return mixloop_lanes::lane_by_lane<8>(x, [](double y) { return function(y); });   \
+#define MIXLOOP_LANE_BY_LANE(name, function)                                        \
+  MIXLOOP_INLINE mixloop_lanes::Lanes4 name(mixloop_lanes::Lanes4 x) {              \
+    return mixloop_lanes::lane_by_lane<4>(x, [](double y) { return function(y); }); \
+  }                                                                                 \
+  MIXLOOP_INLINE mixloop_lanes::Lanes8 name(mixloop_lanes::Lanes8 x) {              \
+    return mixloop_lanes::lane_by_lane<8>(x, [](double y) { return function(y); }); \
   }
 MIXLOOP_LANE_BY_LANE(mixloop_sqrt, sqrt)
 MIXLOOP_LANE_BY_LANE(mixloop_exp, exp)

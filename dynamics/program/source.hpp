@@ -17,7 +17,7 @@ enum class Trigonometry : std::uint8_t {
 struct SourceStyle {
   std::string prefix = "mixloop";  ///< of the exported names; letters, digits and _
   Trigonometry trigonometry = Trigonometry::inlined;
-  bool lanes = false;              ///< also evaluations on 4 and 8 states at once (GCC's vectors)
+  bool lanes = false;  ///< also evaluations on 4 and 8 states at once (GCC's vectors)
 };
 
 /// The head of an emitted file: what it needs, and sine and cosine.

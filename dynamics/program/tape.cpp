@@ -18,16 +18,26 @@ struct Instruction {
 
 TapeOp plain(Op op) {
   switch (op) {
-    case Op::neg: return TapeOp::neg;
-    case Op::sqrt: return TapeOp::sqrt;
-    case Op::exp: return TapeOp::exp;
-    case Op::log: return TapeOp::log;
-    case Op::add: return TapeOp::add;
-    case Op::sub: return TapeOp::sub;
-    case Op::mul: return TapeOp::mul;
-    case Op::div: return TapeOp::div;
-    case Op::atan2: return TapeOp::atan2;
-    default: return TapeOp::sincos;
+    case Op::neg:
+      return TapeOp::neg;
+    case Op::sqrt:
+      return TapeOp::sqrt;
+    case Op::exp:
+      return TapeOp::exp;
+    case Op::log:
+      return TapeOp::log;
+    case Op::add:
+      return TapeOp::add;
+    case Op::sub:
+      return TapeOp::sub;
+    case Op::mul:
+      return TapeOp::mul;
+    case Op::div:
+      return TapeOp::div;
+    case Op::atan2:
+      return TapeOp::atan2;
+    default:
+      return TapeOp::sincos;
   }
 }
 
@@ -101,8 +111,8 @@ class TapeMaker {
     std::reverse(instructions_.begin(), instructions_.end());
   }
 
-  void merge_product(const ExpressionNode& n, NodeId id, const std::vector<std::uint32_t>& use, std::vector<bool>& merged,
-                     Instruction& made) const {
+  void merge_product(const ExpressionNode& n, NodeId id, const std::vector<std::uint32_t>& use,
+                     std::vector<bool>& merged, Instruction& made) const {
     const bool left = can_merge(n.a, id, use);
     if (!left && !can_merge(n.b, id, use)) return;
     const NodeId product = left ? n.a : n.b;
@@ -135,7 +145,8 @@ class TapeMaker {
       auto most = std::max_element(ready.begin(), ready.end(),
                                    [](const auto& x, const auto& y) { return x.size() < y.size(); });
       if (most->empty()) return runs;
-      runs.push_back({static_cast<TapeOp>(most - ready.begin()), 0, static_cast<Tape::Slot>(tape_.values.size()),
+      runs.push_back({static_cast<TapeOp>(most - ready.begin()), 0,
+                      static_cast<Tape::Slot>(tape_.values.size()),
                       static_cast<std::uint32_t>(tape_.operands.size())});
       for (std::size_t next = 0; next < most->size(); ++next) {
         const Instruction& done = instructions_[(*most)[next]];
@@ -143,7 +154,8 @@ class TapeMaker {
         for (NodeId id : done.gives) {
           if (id >= takers.size()) continue;
           for (std::size_t taker : takers[id])
-            if (--missing[taker] == 0) ready[static_cast<std::size_t>(instructions_[taker].op)].push_back(taker);
+            if (--missing[taker] == 0)
+              ready[static_cast<std::size_t>(instructions_[taker].op)].push_back(taker);
         }
       }
       most->clear();

@@ -12,7 +12,16 @@ namespace mixloop {
 /// What one instruction of the interpreter computes: the graph's operations, with a sine and its cosine as
 /// one, and a product that only one sum uses as part of that (rounded twice, as before).
 enum class TapeOp : std::uint8_t {
-  neg, sqrt, sincos, exp, log, add, sub, mul, div, atan2,
+  neg,
+  sqrt,
+  sincos,
+  exp,
+  log,
+  add,
+  sub,
+  mul,
+  div,
+  atan2,
   mul_add,  ///< a b + c
   mul_sub,  ///< a b - c
   sub_mul,  ///< c - a b

@@ -49,12 +49,23 @@ Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpos
   const int n = scene->n();
   Nodes nodes;
   switch (purpose) {
-    case Purpose::forward_dynamics: append(nodes, tracer.forward_dynamics(input_vector(0, n))); break;
-    case Purpose::mass_times: append(nodes, tracer.mass_times(input_vector(0, n))); break;
-    case Purpose::mass_matrix: append(nodes, tracer.mass_matrix()); break;
-    case Purpose::bias: append(nodes, tracer.bias()); break;
-    case Purpose::inverse_dynamics: append(nodes, tracer.inverse_dynamics(input_vector(0, n))); break;
-    case Purpose::linearisation: return linearisation(graph, *scene, tracer);
+    case Purpose::forward_dynamics:
+      append(nodes, tracer.forward_dynamics(input_vector(0, n)));
+      break;
+    case Purpose::mass_times:
+      append(nodes, tracer.mass_times(input_vector(0, n)));
+      break;
+    case Purpose::mass_matrix:
+      append(nodes, tracer.mass_matrix());
+      break;
+    case Purpose::bias:
+      append(nodes, tracer.bias());
+      break;
+    case Purpose::inverse_dynamics:
+      append(nodes, tracer.inverse_dynamics(input_vector(0, n)));
+      break;
+    case Purpose::linearisation:
+      return linearisation(graph, *scene, tracer);
     case Purpose::energy: {
       const Energy<Expression> energy = tracer.energy();
       nodes = {energy.kinetic.node(), energy.potential.node()};
@@ -80,10 +91,14 @@ bool needs_forward_dynamics(Purpose purpose) {
 
 std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, Tracing tracing) {
   switch (tracing) {
-    case Tracing::recursive: return recursive_tracer(scene);
-    case Tracing::articulated: return articulated_tracer(scene);
-    case Tracing::harmonic: return harmonic_tracer(scene);
-    default: return literal_tracer(scene);
+    case Tracing::recursive:
+      return recursive_tracer(scene);
+    case Tracing::articulated:
+      return articulated_tracer(scene);
+    case Tracing::harmonic:
+      return harmonic_tracer(scene);
+    default:
+      return literal_tracer(scene);
   }
 }
 
@@ -118,7 +133,8 @@ TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose) 
   for (Tracing tracing : {Tracing::articulated, Tracing::recursive, Tracing::harmonic, Tracing::literal}) {
     if (tracing == Tracing::literal && !is_small(*scene)) continue;
     // Composite bodies take the square of n and more: articulated ones, where they serve, are ahead by far.
-    if (tracing == Tracing::recursive && scene->n() > kMostComposite && !best.program.outputs.empty()) continue;
+    if (tracing == Tracing::recursive && scene->n() > kMostComposite && !best.program.outputs.empty())
+      continue;
     Program found = trace(scene, purpose, tracing);
     if (found.outputs.empty()) continue;
     if (best.program.outputs.empty() ||

@@ -25,7 +25,8 @@ double positive(double value, const std::string& what, const Place& place) {
 double radius_in(const Mapping& entry, SceneDraft& draft) {
   const NodePtr node = entry.at("radius");
   const std::string what = "the radius of " + entry.what();
-  return positive(constant(draft.formula(*node, kLength, what, draft.fixed), what, node->place), what, node->place);
+  return positive(constant(draft.formula(*node, kLength, what, draft.fixed), what, node->place), what,
+                  node->place);
 }
 
 /// Three lengths; the frame's origin where the key is absent.
@@ -60,8 +61,9 @@ void read_round(const NodePtr& item, Scene::Solid& solid, SceneDraft& draft) {
   solid.from = triple_in(entry, "from", draft);
   solid.to = triple_in(entry, "to", draft);
   if (solid.from == solid.to)
-    throw InputError("out_of_range", item->place,
-                     entry.what() + " goes from a place to the same place; expected 'from' and 'to' that differ");
+    throw InputError(
+        "out_of_range", item->place,
+        entry.what() + " goes from a place to the same place; expected 'from' and 'to' that differ");
 }
 
 Scene::Solid solid_in(const NodePtr& item, SceneDraft& draft) {
@@ -69,8 +71,9 @@ Scene::Solid solid_in(const NodePtr& item, SceneDraft& draft) {
   const Mapping entry(item, "a solid", {"frame", "shape", "size", "radius", "at", "from", "to"});
   Scene::Solid solid;
   solid.frame = draft.frame(entry);
-  solid.shape = static_cast<Shape>(word_of(
-      *entry.at("shape"), {Scene::Solid::kShapes.begin(), Scene::Solid::kShapes.end()}, "the shape of a solid"));
+  solid.shape = static_cast<Shape>(word_of(*entry.at("shape"),
+                                           {Scene::Solid::kShapes.begin(), Scene::Solid::kShapes.end()},
+                                           "the shape of a solid"));
   if (solid.shape == Shape::box)
     read_box(item, solid, draft);
   else if (solid.shape == Shape::sphere)

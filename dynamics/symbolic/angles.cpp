@@ -17,8 +17,9 @@ constexpr std::size_t kMostAngles = 96;  // pairs are searched among so many ang
 bool same(double x, double y) { return std::fabs(x - y) <= 1e-15 * std::max(std::fabs(x), std::fabs(y)); }
 
 bool same_terms(const AffineSum& x, const AffineSum& y, double sign) {
-  return std::equal(x.terms.begin(), x.terms.end(), y.terms.begin(), y.terms.end(),
-                    [&](const auto& s, const auto& t) { return s.first == t.first && same(s.second, sign * t.second); });
+  return std::equal(
+      x.terms.begin(), x.terms.end(), y.terms.begin(), y.terms.end(),
+      [&](const auto& s, const auto& t) { return s.first == t.first && same(s.second, sign * t.second); });
 }
 
 AffineSum combined(const AffineSum& x, double p, const AffineSum& y, double q) {
@@ -87,7 +88,8 @@ std::optional<std::pair<NodeId, NodeId>> Graph::from_known(const AffineSum& sum)
         const AffineSum both = combined(u.sum, p, v.sum, q);
         if (!same_terms(sum, both, 1.0)) continue;
         ++angles_seen_.combined;
-        const NodeId su = p > 0 ? u.sine : unary(Op::neg, u.sine), sv = q > 0 ? v.sine : unary(Op::neg, v.sine);
+        const NodeId su = p > 0 ? u.sine : unary(Op::neg, u.sine),
+                     sv = q > 0 ? v.sine : unary(Op::neg, v.sine);
         const NodeId s = binary(Op::add, binary(Op::mul, su, v.cosine), binary(Op::mul, u.cosine, sv));
         const NodeId c = binary(Op::sub, binary(Op::mul, u.cosine, v.cosine), binary(Op::mul, su, sv));
         return rotated(s, c, sum.constant - both.constant);

@@ -13,13 +13,20 @@ struct Partials {
 
 Partials partials_of_unary(Op op, const Expression& x, const Expression& y) {
   switch (op) {
-    case Op::neg: return {-1.0, 0.0};
-    case Op::sqrt: return {0.5 / y, 0.0};
-    case Op::sin: return {cos(x), 0.0};
-    case Op::cos: return {-sin(x), 0.0};
-    case Op::exp: return {y, 0.0};
-    case Op::log: return {1.0 / x, 0.0};
-    default: return {0.0, 0.0};
+    case Op::neg:
+      return {-1.0, 0.0};
+    case Op::sqrt:
+      return {0.5 / y, 0.0};
+    case Op::sin:
+      return {cos(x), 0.0};
+    case Op::cos:
+      return {-sin(x), 0.0};
+    case Op::exp:
+      return {y, 0.0};
+    case Op::log:
+      return {1.0 / x, 0.0};
+    default:
+      return {0.0, 0.0};
   }
 }
 
@@ -29,12 +36,18 @@ Partials partials(const Graph& graph, NodeId id) {
   if (!is_binary(n.op)) return partials_of_unary(n.op, a, y);
   const Expression b = Expression::of(n.b);
   switch (n.op) {
-    case Op::add: return {1.0, 1.0};
-    case Op::sub: return {1.0, -1.0};
-    case Op::mul: return {b, a};
-    case Op::div: return {1.0 / b, -y / b};
-    case Op::atan2: return {b / (a * a + b * b), -a / (a * a + b * b)};
-    default: return {0.0, 0.0};
+    case Op::add:
+      return {1.0, 1.0};
+    case Op::sub:
+      return {1.0, -1.0};
+    case Op::mul:
+      return {b, a};
+    case Op::div:
+      return {1.0 / b, -y / b};
+    case Op::atan2:
+      return {b / (a * a + b * b), -a / (a * a + b * b)};
+    default:
+      return {0.0, 0.0};
   }
 }
 

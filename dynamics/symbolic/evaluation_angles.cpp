@@ -51,14 +51,15 @@ std::vector<Angle> candidates_of(const std::set<Angle>& harmonics) {
     for (int x : a) sum += std::abs(x);
     return sum;
   };
-  std::stable_sort(result.begin(), result.end(), [&](const Angle& x, const Angle& y) { return length(x) < length(y); });
+  std::stable_sort(result.begin(), result.end(),
+                   [&](const Angle& x, const Angle& y) { return length(x) < length(y); });
   if (result.size() > 16) result.resize(16);
   return result;
 }
 
 // Every harmonic that `angles` give, with its combination of the lowest degree.
-void combine(const std::vector<Angle>& angles, std::size_t at, Angle sum, std::vector<int>& multiple, int degree,
-             std::map<Angle, std::pair<int, std::vector<int>>>& reached) {
+void combine(const std::vector<Angle>& angles, std::size_t at, Angle sum, std::vector<int>& multiple,
+             int degree, std::map<Angle, std::pair<int, std::vector<int>>>& reached) {
   if (at == angles.size()) {
     auto [found, fresh] = reached.try_emplace(sum, degree, multiple);
     if (!fresh && degree < found->second.first) found->second = {degree, multiple};
@@ -67,7 +68,8 @@ void combine(const std::vector<Angle>& angles, std::size_t at, Angle sum, std::v
   for (int k = -kHighest; k <= kHighest; ++k) {
     if (degree + std::abs(k) > kHighestDegree) continue;
     Angle next = sum;
-    for (std::size_t i = 0; i < next.size(); ++i) next[i] = static_cast<std::int16_t>(next[i] + k * angles[at][i]);
+    for (std::size_t i = 0; i < next.size(); ++i)
+      next[i] = static_cast<std::int16_t>(next[i] + k * angles[at][i]);
     multiple[at] = k;
     combine(angles, at + 1, next, multiple, degree + std::abs(k), reached);
   }
@@ -95,8 +97,8 @@ void consider(const std::vector<Angle>& angles, const std::set<Angle>& harmonics
   if (cost < best.cost) best = {cost, std::move(made)};
 }
 
-void choose(const std::vector<Angle>& candidates, std::size_t from, std::size_t count, std::vector<Angle>& taken,
-            const std::set<Angle>& harmonics, Choice& best) {
+void choose(const std::vector<Angle>& candidates, std::size_t from, std::size_t count,
+            std::vector<Angle>& taken, const std::set<Angle>& harmonics, Choice& best) {
   if (taken.size() == count) return consider(taken, harmonics, best);
   for (std::size_t i = from; i < candidates.size(); ++i) {
     taken.push_back(candidates[i]);

@@ -60,7 +60,9 @@ inline Expression sin(const Expression& x) { return Expression::unary(Op::sin, x
 inline Expression cos(const Expression& x) { return Expression::unary(Op::cos, x); }
 inline Expression exp(const Expression& x) { return Expression::unary(Op::exp, x); }
 inline Expression log(const Expression& x) { return Expression::unary(Op::log, x); }
-inline Expression atan2(const Expression& y, const Expression& x) { return Expression::binary(Op::atan2, y, x); }
+inline Expression atan2(const Expression& y, const Expression& x) {
+  return Expression::binary(Op::atan2, y, x);
+}
 inline const Expression& conj(const Expression& x) { return x; }
 inline const Expression& real(const Expression& x) { return x; }
 inline Expression imag(const Expression&) { return 0.0; }
@@ -92,8 +94,13 @@ struct NumTraits<mixloop::Expression> : GenericNumTraits<double> {
   using Nested = mixloop::Expression;
   using Literal = mixloop::Expression;
   enum {
-    IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1,
-    ReadCost = 1, AddCost = 1, MulCost = 1
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
   };
   static Real epsilon() { return std::numeric_limits<double>::epsilon(); }
   static Real dummy_precision() { return 1e-12; }

@@ -10,18 +10,30 @@ namespace mixloop {
 double apply(Op op, double a, double b) {
   switch (op) {
     case Op::constant:
-    case Op::input: return a;
-    case Op::neg: return -a;
-    case Op::sqrt: return std::sqrt(a);
-    case Op::sin: return std::sin(a);
-    case Op::cos: return std::cos(a);
-    case Op::exp: return std::exp(a);
-    case Op::log: return std::log(a);
-    case Op::add: return a + b;
-    case Op::sub: return a - b;
-    case Op::mul: return a * b;
-    case Op::div: return a / b;
-    case Op::atan2: return std::atan2(a, b);
+    case Op::input:
+      return a;
+    case Op::neg:
+      return -a;
+    case Op::sqrt:
+      return std::sqrt(a);
+    case Op::sin:
+      return std::sin(a);
+    case Op::cos:
+      return std::cos(a);
+    case Op::exp:
+      return std::exp(a);
+    case Op::log:
+      return std::log(a);
+    case Op::add:
+      return a + b;
+    case Op::sub:
+      return a - b;
+    case Op::mul:
+      return a * b;
+    case Op::div:
+      return a / b;
+    case Op::atan2:
+      return std::atan2(a, b);
   }
   return a;
 }
@@ -72,10 +84,14 @@ std::optional<double> Graph::number(NodeId id) const {
 NodeId Graph::unary(Op op, NodeId a) {
   if (auto x = number(a); x && op != Op::neg) return constant(apply(op, *x));
   switch (op) {
-    case Op::neg: return neg(a);
-    case Op::sin: return sine_cosine(a).first;
-    case Op::cos: return sine_cosine(a).second;
-    default: break;
+    case Op::neg:
+      return neg(a);
+    case Op::sin:
+      return sine_cosine(a).first;
+    case Op::cos:
+      return sine_cosine(a).second;
+    default:
+      break;
   }
   return intern({op, a, 0, 0.0});
 }
@@ -84,11 +100,16 @@ NodeId Graph::binary(Op op, NodeId a, NodeId b) {
   auto x = number(a), y = number(b);
   if (x && y) return constant(apply(op, *x, *y));
   switch (op) {
-    case Op::add: return add(a, b);
-    case Op::sub: return sub(a, b);
-    case Op::mul: return mul(a, b);
-    case Op::div: return div(a, b);
-    default: break;
+    case Op::add:
+      return add(a, b);
+    case Op::sub:
+      return sub(a, b);
+    case Op::mul:
+      return mul(a, b);
+    case Op::div:
+      return div(a, b);
+    default:
+      break;
   }
   return intern({op, a, b, 0.0});
 }

@@ -17,9 +17,19 @@ using NodeId = std::uint32_t;
 
 /// What a node computes. `constant` and `input` are leaves; the rest take one operand (a) or two (a, b).
 enum class Op : std::uint8_t {
-  constant, input,
-  neg, sqrt, sin, cos, exp, log,
-  add, sub, mul, div, atan2,
+  constant,
+  input,
+  neg,
+  sqrt,
+  sin,
+  cos,
+  exp,
+  log,
+  add,
+  sub,
+  mul,
+  div,
+  atan2,
 };
 
 /// True for the operations of two operands.

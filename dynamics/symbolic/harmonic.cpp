@@ -76,10 +76,12 @@ class WritingSearch {
     Graph graph;
     const Recording recording(graph);
     std::vector<Expression> atoms;
-    for (std::size_t i = 0; i < found_->energy.atoms.size(); ++i) atoms.push_back(Expression::input(Block::parameter, i));
+    for (std::size_t i = 0; i < found_->energy.atoms.size(); ++i)
+      atoms.push_back(Expression::input(Block::parameter, i));
     const auto tracer = harmonic_equations(scene_, found_, writing, atoms);
     ExpressionVector tau(scene_.n());
-    for (int i = 0; i < scene_.n(); ++i) tau[i] = Expression::input(Block::input, static_cast<std::size_t>(i));
+    for (int i = 0; i < scene_.n(); ++i)
+      tau[i] = Expression::input(Block::input, static_cast<std::size_t>(i));
     std::vector<NodeId> outputs;
     for (const Expression& x : tracer->forward_dynamics(tau)) outputs.push_back(x.node());
     return cost_of(graph, outputs);
@@ -101,7 +103,8 @@ std::unique_ptr<Tracer> harmonic_tracer(std::shared_ptr<const Scene> scene) {
   auto angles = evaluation_angles(found->energy);
   if (!angles) return nullptr;
   found->angles = std::move(*angles);
-  for (const Eigen::MatrixXd& B : candidate_bases(found->energy, kBasesTried)) found->forms.push_back(block_form(found->energy, B));
+  for (const Eigen::MatrixXd& B : candidate_bases(found->energy, kBasesTried))
+    found->forms.push_back(block_form(found->energy, B));
   const Writing writing = WritingSearch(*scene, found).best();
   const std::vector<Expression> atoms = found->energy.atoms;
   return harmonic_equations(*scene, std::move(found), writing, atoms);

@@ -44,8 +44,11 @@ std::optional<std::pair<long, long>> rational(long double x) {
 class EnergyMaker {
  public:
   EnergyMaker(const std::shared_ptr<const Scene>& scene, Graph& graph)
-      : scene_(scene), graph_(graph), in_(*scene),
-        model_(make_model<Expression>(scene, std::span<const Expression>(in_.parameters))), n_(scene->n()) {}
+      : scene_(scene),
+        graph_(graph),
+        in_(*scene),
+        model_(make_model<Expression>(scene, std::span<const Expression>(in_.parameters))),
+        n_(scene->n()) {}
 
   std::optional<HarmonicEnergy> make() {
     if (n_ > kMostAngles - 2 || !find_coordinates() || !choose_base_angles()) return std::nullopt;
@@ -122,9 +125,10 @@ class EnergyMaker {
     Angle angle{};
     const auto& base = made_.space.angles;
     const auto same = std::find(base.begin(), base.end(), row);
-    const bool diagonal = base.size() == static_cast<std::size_t>(n_) && std::all_of(base.begin(), base.end(), [&](const Row& b) {
-      return std::count(b.begin(), b.end(), 0.0L) == n_ - 1;
-    });
+    const bool diagonal = base.size() == static_cast<std::size_t>(n_) &&
+                          std::all_of(base.begin(), base.end(), [&](const Row& b) {
+                            return std::count(b.begin(), b.end(), 0.0L) == n_ - 1;
+                          });
     if (!diagonal) {
       angle[static_cast<std::size_t>(same - base.begin())] = 1;
       return angle;
@@ -180,7 +184,9 @@ class EnergyMaker {
     const HarmonicSum ca = sum_of(link.cos_alpha), sa = sum_of(link.sin_alpha), a = sum_of(link.a);
     HarmonicSum s_ca = product(s, ca), c_sa = product(c, sa);
     s_ca *= -1, c_sa *= -1;
-    return {{{c, s_ca, product(s, sa), product(a, c)}, {s, product(c, ca), c_sa, product(a, s)}, {HarmonicSum(), sa, ca, d}}};
+    return {{{c, s_ca, product(s, sa), product(a, c)},
+             {s, product(c, ca), c_sa, product(a, s)},
+             {HarmonicSum(), sa, ca, d}}};
   }
 
   static Matrix34 times(const Matrix34& X, const Matrix34& A) {
@@ -260,7 +266,8 @@ class EnergyMaker {
       std::vector<Matrix34> dT(static_cast<std::size_t>(n_));
       for (int k = 0; k < n_; ++k)
         for (std::size_t i = 0; i < 3; ++i)
-          for (std::size_t j = 0; j < 4; ++j) dT[static_cast<std::size_t>(k)][i][j] = T[i][j].derivative(made_.space, k);
+          for (std::size_t j = 0; j < 4; ++j)
+            dT[static_cast<std::size_t>(k)][i][j] = T[i][j].derivative(made_.space, k);
       for (std::size_t k = 0; k < dT.size(); ++k) {
         const Matrix34 dTJ = times_inertia(dT[k], J);
         for (std::size_t l = 0; l <= k; ++l)

@@ -14,8 +14,8 @@ namespace mixloop {
 /// Kinetic energy 1/2 psid^T M psid and potential of a scene as harmonic sums.
 struct HarmonicEnergy {
   HarmonicSpace space;
-  std::vector<Expression> atoms;             ///< powers n, n + 1, ...: numbers that depend on parameters
-  std::vector<std::vector<HarmonicSum>> M;   ///< M[k][l], l <= k
+  std::vector<Expression> atoms;            ///< powers n, n + 1, ...: numbers that depend on parameters
+  std::vector<std::vector<HarmonicSum>> M;  ///< M[k][l], l <= k
   HarmonicSum potential;
   std::vector<std::vector<long double>> axes;  ///< rates (rows in psi) of joints and of sums of parallel ones
 };

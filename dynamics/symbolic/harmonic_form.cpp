@@ -33,7 +33,8 @@ std::map<HarmonicKey, Sheet> sheets_of(const HarmonicEnergy& energy) {
   std::map<HarmonicKey, Sheet> sheets;
   for (Eigen::Index k = 0; k < n; ++k) {
     for (Eigen::Index l = 0; l <= k; ++l) {
-      for (const auto& [key, term] : energy.M[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)].terms()) {
+      for (const auto& [key, term] :
+           energy.M[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)].terms()) {
         if (!is_canonical(key)) continue;
         auto [found, fresh] = sheets.try_emplace(key);
         Sheet& sheet = found->second;
@@ -53,12 +54,13 @@ void clean(LongMatrix& part, const LongMatrix& scale) {
     if (is_round_off(part.data()[i], scale.data()[i])) part.data()[i] = 0;
 }
 
-std::map<HarmonicKey, Sheet> transformed(const std::map<HarmonicKey, Sheet>& sheets, const LongMatrix& B_inverse) {
+std::map<HarmonicKey, Sheet> transformed(const std::map<HarmonicKey, Sheet>& sheets,
+                                         const LongMatrix& B_inverse) {
   std::map<HarmonicKey, Sheet> result;
   const LongMatrix size = B_inverse.cwiseAbs();
   for (const auto& [key, sheet] : sheets) {
-    Sheet now{B_inverse.transpose() * sheet.real * B_inverse, B_inverse.transpose() * sheet.imaginary * B_inverse,
-              size.transpose() * sheet.scale * size};
+    Sheet now{B_inverse.transpose() * sheet.real * B_inverse,
+              B_inverse.transpose() * sheet.imaginary * B_inverse, size.transpose() * sheet.scale * size};
     clean(now.real, now.scale);
     clean(now.imaginary, now.scale);
     if (!now.real.isZero(0) || !now.imaginary.isZero(0)) result[key] = std::move(now);
@@ -96,18 +98,21 @@ Eigen::MatrixXd normalised(const LongMatrix& A, long double& factor) {
     const long double x = A.data()[i];
     if (x == 0) continue;
     std::size_t count = 0;
-    for (Eigen::Index j = 0; j < A.size(); ++j) count += std::abs(std::abs(A.data()[j]) - std::abs(x)) < 1e-13L * std::abs(x);
+    for (Eigen::Index j = 0; j < A.size(); ++j)
+      count += std::abs(std::abs(A.data()[j]) - std::abs(x)) < 1e-13L * std::abs(x);
     if (count > most) most = count, factor = x;
   }
   Eigen::MatrixXd result = (A / factor).cast<double>();
   for (Eigen::Index i = 0; i < result.size(); ++i) {  // ones and other whole numbers that rounding missed
     const double whole = std::round(result.data()[i]);
-    if (whole != 0.0 && std::fabs(result.data()[i] - whole) < 1e-14 * std::fabs(whole)) result.data()[i] = whole;
+    if (whole != 0.0 && std::fabs(result.data()[i] - whole) < 1e-14 * std::fabs(whole))
+      result.data()[i] = whole;
   }
   return result;
 }
 
-void add_to_group(BlockForm& form, std::size_t block, const HarmonicKey& key, const LongMatrix& A, Complex direction) {
+void add_to_group(BlockForm& form, std::size_t block, const HarmonicKey& key, const LongMatrix& A,
+                  Complex direction) {
   if (A.isZero(0)) return;
   long double factor = 1;
   const Eigen::MatrixXd unit = normalised(A, factor);
@@ -139,16 +144,19 @@ BlockForm block_form(const HarmonicEnergy& energy, const Eigen::MatrixXd& B) {
   form.blocks = blocks_of(sheets, static_cast<int>(B.rows()));
   form.potential = waves_of(energy.potential);
   for (const auto& [key, sheet] : sheets) {
-    const bool moves = !is_constant_angle(key) ||
-                       std::any_of(key.power.begin(), key.power.begin() + energy.space.n, [](int p) { return p != 0; });
+    const bool moves =
+        !is_constant_angle(key) ||
+        std::any_of(key.power.begin(), key.power.begin() + energy.space.n, [](int p) { return p != 0; });
     if (!moves) {
       form.constant[key] = sheet.real.cast<double>();
       continue;
     }
     for (std::size_t b = 0; b < form.blocks.size(); ++b) {
       // Re(w e^ix) A with one w where the real and the imaginary part are proportional.
-      const LongMatrix real = within(sheet.real, form.blocks[b]), imaginary = within(sheet.imaginary, form.blocks[b]);
-      const long double rr = real.squaredNorm(), ii = imaginary.squaredNorm(), ri = real.cwiseProduct(imaginary).sum();
+      const LongMatrix real = within(sheet.real, form.blocks[b]),
+                       imaginary = within(sheet.imaginary, form.blocks[b]);
+      const long double rr = real.squaredNorm(), ii = imaginary.squaredNorm(),
+                        ri = real.cwiseProduct(imaginary).sum();
       if (ri * ri >= rr * ii * (1 - 1e-24L) && rr > 0 && ii > 0) {
         const long double ratio = ri / rr;
         add_to_group(form, b, key, real, Complex(1, ratio));
@@ -165,7 +173,8 @@ namespace {
 
 // The row with its largest element scaled to one.
 Row scaled(const Row& row) {
-  const auto largest = std::max_element(row.begin(), row.end(), [](long double x, long double y) { return std::abs(x) < std::abs(y); });
+  const auto largest = std::max_element(
+      row.begin(), row.end(), [](long double x, long double y) { return std::abs(x) < std::abs(y); });
   Row result = row;
   for (auto& x : result) x /= *largest;
   return result;
@@ -179,7 +188,9 @@ std::vector<Row> candidate_rows(const HarmonicEnergy& energy) {
     for (auto& x : now)
       if (std::abs(x) < 1e-15L) x = 0;
     for (const Row& known : rows)
-      if (std::equal(known.begin(), known.end(), now.begin(), [](long double x, long double y) { return std::abs(x - y) < 1e-14L; })) return;
+      if (std::equal(known.begin(), known.end(), now.begin(),
+                     [](long double x, long double y) { return std::abs(x - y) < 1e-14L; }))
+        return;
     if (rows.size() < 12) rows.push_back(now);
   };
   for (const Row& axis : energy.axes) add(axis);
@@ -197,8 +208,10 @@ double burden(const std::map<HarmonicKey, Sheet>& sheets, const LongMatrix& B) {
   for (const auto& [key, sheet] : sheets)
     for (Eigen::Index i = 0; i < B.rows(); ++i)
       for (Eigen::Index j = 0; j <= i; ++j) cost += (sheet.real(i, j) != 0) + (sheet.imaginary(i, j) != 0);
-  for (const auto& block : blocks_of(sheets, static_cast<int>(B.rows()))) cost += std::pow(static_cast<double>(block.size()), 3) / 2;
-  for (Eigen::Index i = 0; i < B.size(); ++i) cost += (B.data()[i] != 0) + (std::abs(std::abs(B.data()[i]) - 1) > 1e-14L && B.data()[i] != 0);
+  for (const auto& block : blocks_of(sheets, static_cast<int>(B.rows())))
+    cost += std::pow(static_cast<double>(block.size()), 3) / 2;
+  for (Eigen::Index i = 0; i < B.size(); ++i)
+    cost += (B.data()[i] != 0) + (std::abs(std::abs(B.data()[i]) - 1) > 1e-14L && B.data()[i] != 0);
   return cost;
 }
 
@@ -225,7 +238,8 @@ std::vector<Eigen::MatrixXd> candidate_bases(const HarmonicEnergy& energy, std::
     if (B.norm() * inverse.norm() > 4 * static_cast<long double>(n)) continue;
     found.emplace_back(burden(transformed(sheets, inverse), B), B.cast<double>());
   } while (std::prev_permutation(chosen.begin(), chosen.end()));
-  std::stable_sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
   std::vector<Eigen::MatrixXd> bases;
   for (std::size_t i = 0; i < std::min(most, found.size()); ++i) bases.push_back(found[i].second);
   return bases;

@@ -8,8 +8,10 @@ namespace mixloop {
 
 HarmonicKey HarmonicKey::operator+(const HarmonicKey& other) const {
   HarmonicKey sum = *this;
-  for (std::size_t i = 0; i < angle.size(); ++i) sum.angle[i] = static_cast<std::int16_t>(angle[i] + other.angle[i]);
-  for (std::size_t i = 0; i < power.size(); ++i) sum.power[i] = static_cast<std::int16_t>(power[i] + other.power[i]);
+  for (std::size_t i = 0; i < angle.size(); ++i)
+    sum.angle[i] = static_cast<std::int16_t>(angle[i] + other.angle[i]);
+  for (std::size_t i = 0; i < power.size(); ++i)
+    sum.power[i] = static_cast<std::int16_t>(power[i] + other.power[i]);
   return sum;
 }
 
@@ -29,7 +31,8 @@ namespace {
 
 HarmonicKey key_of(const std::array<std::int16_t, kMostAngles>& angle, int sign) {
   HarmonicKey key;
-  std::transform(angle.begin(), angle.end(), key.angle.begin(), [&](int a) { return static_cast<std::int16_t>(sign * a); });
+  std::transform(angle.begin(), angle.end(), key.angle.begin(),
+                 [&](int a) { return static_cast<std::int16_t>(sign * a); });
   return key;
 }
 

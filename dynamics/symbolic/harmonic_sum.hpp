@@ -23,8 +23,8 @@ struct HarmonicKey {
 
 /// The base angles and the powers' variables that harmonic sums of one scene are made of.
 struct HarmonicSpace {
-  int n = 0;                                      ///< independent coordinates; powers 0 to n-1 are theirs
-  std::vector<std::vector<long double>> angles;   ///< d theta_g / d psi_k
+  int n = 0;                                     ///< independent coordinates; powers 0 to n-1 are theirs
+  std::vector<std::vector<long double>> angles;  ///< d theta_g / d psi_k
 };
 
 /// A trigonometric polynomial in a few base angles, and a polynomial in displacements and parameters: a

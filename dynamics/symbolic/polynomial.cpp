@@ -28,8 +28,9 @@ namespace {
 std::size_t most_common(const Polynomial& polynomial, std::size_t variables) {
   std::size_t best = 0, most = 0;
   for (std::size_t v = 0; v < variables; ++v) {
-    const auto count = static_cast<std::size_t>(std::count_if(polynomial.terms.begin(), polynomial.terms.end(),
-                                                              [&](const auto& term) { return term.first[v] > 0; }));
+    const auto count =
+        static_cast<std::size_t>(std::count_if(polynomial.terms.begin(), polynomial.terms.end(),
+                                               [&](const auto& term) { return term.first[v] > 0; }));
     if (count > most) best = v, most = count;
   }
   return best;

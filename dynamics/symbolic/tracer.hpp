@@ -52,6 +52,7 @@ std::unique_ptr<Tracer> articulated_tracer(std::shared_ptr<const Scene> scene);
 std::unique_ptr<Tracer> harmonic_tracer(std::shared_ptr<const Scene> scene);
 
 /// The end effector's state, recorded from the procedure.
-EndEffectorState<Expression> trace_end_effector(std::shared_ptr<const Scene> scene, const ExpressionVector& psidd);
+EndEffectorState<Expression> trace_end_effector(std::shared_ptr<const Scene> scene,
+                                                const ExpressionVector& psidd);
 
 }  // namespace mixloop

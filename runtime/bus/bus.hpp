@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/bus/wire.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/machine/stop_switch.hpp"
-#include "runtime/bus/wire.hpp"
 
 namespace mixloop {
 

@@ -31,8 +31,9 @@ enum class Reject : std::uint8_t {
   stale,        ///< a tick that is over: doubled, overtaken or replayed
 };
 
-inline constexpr std::array kRejects = {Reject::length,  Reject::fingerprint, Reject::dimension, Reject::not_finite,
-                                        Reject::session, Reject::config,      Reject::tick,      Reject::stale};
+inline constexpr std::array kRejects = {Reject::length,     Reject::fingerprint, Reject::dimension,
+                                        Reject::not_finite, Reject::session,     Reject::config,
+                                        Reject::tick,       Reject::stale};
 
 std::string_view name(Reject cause);
 

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "notation/errors.hpp"
-#include "runtime/machine/fitness.hpp"
 #include "runtime/clock/histogram.hpp"
+#include "runtime/machine/fitness.hpp"
 
 namespace mixloop {
 namespace {

@@ -39,7 +39,8 @@ Ending ControllerPeer::run() {
     drained_ = event == PlantLink::Event::nothing;
     switch (event) {
       case PlantLink::Event::over:
-        if (link_.ending() == Ending::stopped && in_real_time()) send_safe_afterwards(command_t::FLAG_STOPPED);
+        if (link_.ending() == Ending::stopped && in_real_time())
+          send_safe_afterwards(command_t::FLAG_STOPPED);
         return link_.ending();
       case PlantLink::Event::fresh:
         if (link_.first_of_session()) begin_session();

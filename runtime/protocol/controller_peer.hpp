@@ -34,9 +34,9 @@ struct ControllerSide {
 /// answered by the same bytes, an older one is dropped.
 ///
 /// Where the plant keeps real time, only the latest STATE is answered. A REFERENCE that isn't there after a
-/// quarter of a tick is extrapolated from the last one, for at most `max_missed` ticks; after that the answer is
-/// a safe command. One more is sent after as many ticks without a STATE, and on a STOP. Tick 0 waits for its
-/// reference.
+/// quarter of a tick is extrapolated from the last one, for at most `max_missed` ticks; after that the answer
+/// is a safe command. One more is sent after as many ticks without a STATE, and on a STOP. Tick 0 waits for
+/// its reference.
 ///
 /// After start-up a tick costs no allocation, lock or throw of ours.
 class ControllerPeer {

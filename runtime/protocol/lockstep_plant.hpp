@@ -22,7 +22,7 @@ class LockstepPlant {
   void send_reset(std::int64_t next) { port_.send_reset(next); }
 
   const PlantReport& report() const { return port_.report; }  ///< true after run() has thrown, too
-  PlantReport& report() { return port_.report; }  ///< to count what else the process hears
+  PlantReport& report() { return port_.report; }              ///< to count what else the process hears
 
  private:
   Ending run_ticks();

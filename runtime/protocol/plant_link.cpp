@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "notation/errors.hpp"
-#include "runtime/protocol/config_hash.hpp"
 #include "runtime/clock/plant_time.hpp"
+#include "runtime/protocol/config_hash.hpp"
 
 namespace mixloop {
 namespace {

@@ -6,12 +6,12 @@
 #include <string>
 
 #include "runtime/bus/bus.hpp"
+#include "runtime/bus/wire.hpp"
 #include "runtime/clock/clock.hpp"
+#include "runtime/machine/stop_switch.hpp"
 #include "runtime/protocol/config_agreement.hpp"
 #include "runtime/protocol/ending.hpp"
 #include "runtime/protocol/session.hpp"
-#include "runtime/machine/stop_switch.hpp"
-#include "runtime/bus/wire.hpp"
 
 namespace mixloop {
 

@@ -6,11 +6,11 @@
 
 #include "runtime/bus/bus.hpp"
 #include "runtime/clock/clock.hpp"
+#include "runtime/machine/stop_switch.hpp"
 #include "runtime/protocol/conductor.hpp"
 #include "runtime/protocol/config_agreement.hpp"
 #include "runtime/protocol/ending.hpp"
 #include "runtime/protocol/plant_side.hpp"
-#include "runtime/machine/stop_switch.hpp"
 #include "runtime/protocol/timing_sender.hpp"
 
 namespace mixloop {

@@ -6,9 +6,9 @@
 #include <functional>
 #include <span>
 
+#include "runtime/bus/wire.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/histogram.hpp"
-#include "runtime/bus/wire.hpp"
 
 namespace mixloop {
 

@@ -27,14 +27,16 @@ const std::string kFaults =
     "{at: 0.4 s, parameter: payload, value: 4 kg}, {at: 0.5 s, friction: 3}]";
 
 std::vector<std::string> line(const char* what, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {bin("mixloop"), what, experiment("paper"), "--json", "--set",
-                                    "controller.kv=[0.5, 0.25, 0.25]", "--set", "expect={}"};
+  std::vector<std::string> words = {bin("mixloop"), what,       experiment("paper"),
+                                    "--json",       "--set",    "controller.kv=[0.5, 0.25, 0.25]",
+                                    "--set",        "expect={}"};
   for (const std::string& set : {kSensors, kActuators, kFaults}) words.insert(words.end(), {"--set", set});
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
 
-nlohmann::json result(const std::vector<std::string>& words, const std::vector<std::string>& environment = {}) {
+nlohmann::json result(const std::vector<std::string>& words,
+                      const std::vector<std::string>& environment = {}) {
   Command command(words, environment);
   EXPECT_EQ(command.wait(), 0) << command.out() << command.err();
   return command.json();
@@ -68,8 +70,16 @@ TEST(Hardware, ThatIsIdealDrawsNothing) {
 }
 
 TEST(Hardware, IsLeftOutOfStabilityWhichSaysSo) {
-  const std::vector<std::string> words = {bin("mixloop"), "stability", experiment("paper"), "--no-confirmation",
-                                          "--poses", "2", "--vary", "plant.command_delay=0 s", "--set", kActuators};
+  const std::vector<std::string> words = {bin("mixloop"),
+                                          "stability",
+                                          experiment("paper"),
+                                          "--no-confirmation",
+                                          "--poses",
+                                          "2",
+                                          "--vary",
+                                          "plant.command_delay=0 s",
+                                          "--set",
+                                          kActuators};
   Command told(words);
   EXPECT_EQ(told.wait(), 0) << told.out();
   const std::string said = told.err();
@@ -77,7 +87,8 @@ TEST(Hardware, IsLeftOutOfStabilityWhichSaysSo) {
   EXPECT_EQ(said.find("ideal hardware"), said.rfind("ideal hardware")) << "once";
 }
 
-// A plant whose payload falls at 0.5 s: what trajectory.csv says of energy and acceleration is of the lighter robot.
+// A plant whose payload falls at 0.5 s: what trajectory.csv says of energy and acceleration is of the lighter
+// robot.
 TEST(Hardware, KeepsAccountsOfAPayloadThatFalls) {
   const ScratchFolder folder;
   result({bin("mixloop"), "simulate", experiment("paper"), "--json", "--set", "expect={}", "--set",
@@ -90,8 +101,9 @@ TEST(Hardware, KeepsAccountsOfAPayloadThatFalls) {
   const auto column = [&](const std::string& name) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
-  const std::size_t t = column("t"), kinetic = column("kinetic_energy"), potential = column("potential_energy"),
-                    work = column("work"), height = column("position_z_actual");
+  const std::size_t t = column("t"), kinetic = column("kinetic_energy"),
+                    potential = column("potential_energy"), work = column("work"),
+                    height = column("position_z_actual");
   double before = 0, after = 0, fallen = 0;
   double end = 0;
   while (std::getline(file, text)) {

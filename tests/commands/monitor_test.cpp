@@ -5,9 +5,9 @@
 #include <csignal>
 
 #include "tests/support/command.hpp"
-#include "tests/support/terminal.hpp"
 #include "tests/support/heard.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/terminal.hpp"
 
 namespace mixloop {
 namespace {
@@ -67,8 +67,8 @@ TEST(Monitor, RefusesBadInput) {
   Command no_file({bin("mixloop"), "monitor", "none.yaml", "--json"});
   EXPECT_EQ(no_file.wait(), 2);
   // ncurses forgets what it has read of an unknown terminal.
-  const std::string suppressions = "LSAN_OPTIONS=print_suppressions=0:suppressions=" MIXLOOP_SOURCE
-                                   "/tests/support/lsan.supp";
+  const std::string suppressions =
+      "LSAN_OPTIONS=print_suppressions=0:suppressions=" MIXLOOP_SOURCE "/tests/support/lsan.supp";
   Terminal unknown({bin("mixloop"), "monitor"}, {"TERM=no-such", suppressions}, 24, 80);
   EXPECT_EQ(unknown.wait(), 2);
   EXPECT_THAT(unknown.screen(), HasSubstr("TERM=no-such"));

@@ -74,7 +74,9 @@ TEST(Report, TakesALog) {
   ASSERT_EQ(run.wait(), 0) << run.err();
   std::filesystem::copy_file(out + "/run.lcmlog", folder.file("alone.lcmlog"));
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{out}, {out + "/run.lcmlog"}, {folder.file("alone.lcmlog")},
+       {std::vector<std::string>{out},
+        {out + "/run.lcmlog"},
+        {folder.file("alone.lcmlog")},
         {folder.file("alone.lcmlog"), "--experiment", experiment("paper")}}) {
     SCOPED_TRACE(words.back());
     std::vector<std::string> all = {bin("mixloop"), "report", "--json", "--out", folder.file("page.html")};
@@ -106,7 +108,8 @@ TEST(Report, SaysWhereItCannotWrite) {
   if (!has_pages()) GTEST_SKIP() << "built without npm";
   ScratchFolder folder;
   const std::string one = simulated(folder, "one");
-  EXPECT_EQ(refused({one, "--out", folder.file("no/such/folder.html")}, "cannot_write", "no/such/folder.html"), 3);
+  EXPECT_EQ(
+      refused({one, "--out", folder.file("no/such/folder.html")}, "cannot_write", "no/such/folder.html"), 3);
 }
 
 }  // namespace

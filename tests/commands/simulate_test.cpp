@@ -108,7 +108,8 @@ TEST(Simulate, ChoosesTheIntegratorThatKeepsALocalError) {
   int evaluations = 0;
   for (const char* asked : {"1e-3", "1e-6", "1e-9", "1e-13"}) {
     SCOPED_TRACE(asked);
-    const auto result = simulated("paper", {"plant.integrator=auto", std::string("plant.local_error=") + asked, "expect={}"});
+    const auto result =
+        simulated("paper", {"plant.integrator=auto", std::string("plant.local_error=") + asked, "expect={}"});
     const auto& integrator = result["integrator"];
     const double bound = std::stod(asked);
     EXPECT_EQ(integrator["chosen"]["local_error"], bound);
@@ -135,20 +136,22 @@ TEST(Simulate, GivesThePapersExperimentByEveryMethodOfSomeOrder) {
   }
   EXPECT_NEAR(simulated("paper", {"plant.integrator=rodas4"})["max_position_error"], 13.2066936e-3, 0.5e-10);
   EXPECT_NEAR(simulated("paper", {"plant.integrator=rodas3"})["max_position_error"], 13.20669e-3, 0.5e-8);
-  EXPECT_NEAR(simulated("paper", {"plant.integrator=dop853", "plant.local_error=1e-12"})["max_position_error"],
-              13.2066936e-3, 0.5e-10);
+  EXPECT_NEAR(
+      simulated("paper", {"plant.integrator=dop853", "plant.local_error=1e-12"})["max_position_error"],
+      13.2066936e-3, 0.5e-10);
 }
 
 // The same bytes again, in any way that is promised (docs/accuracy.md).
 TEST(Simulate, GivesTheSameBytesOnARerunAndWithResultsKept) {
   for (const char* name : {"rk4", "dop853", "rodas4", "auto"}) {
     SCOPED_TRACE(name);
-    const std::vector<std::string> sets = {std::string("plant.integrator=") + name, "plant.command_delay=0.3 ms"};
+    const std::vector<std::string> sets = {std::string("plant.integrator=") + name,
+                                           "plant.command_delay=0.3 ms"};
     const auto first = simulated("paper", sets);
     EXPECT_EQ(simulated("paper", sets)["trajectory_sha256"], first["trajectory_sha256"]);
     ScratchFolder folder;
-    Command kept({bin("mixloop"), "simulate", experiment("paper"), "--json", "--set", sets[0], "--set", sets[1], "--out",
-                  folder.file("kept")});
+    Command kept({bin("mixloop"), "simulate", experiment("paper"), "--json", "--set", sets[0], "--set",
+                  sets[1], "--out", folder.file("kept")});
     ASSERT_EQ(kept.wait(), 0) << kept.err();
     EXPECT_EQ(kept.json()["trajectory_sha256"], first["trajectory_sha256"]);
   }
@@ -184,22 +187,33 @@ TEST(Simulate, RefusesBadInputAndWritesNothing) {
         BadLine{{experiment("paper"), "--set", "rate=5 mm"}, "wrong_dimension", "a length"},
         BadLine{{experiment("paper"), "--set", "path.line.to=[-0.3, 0.4, 3]"}, "unreachable", "reach"},
         BadLine{{experiment("paper"), "--set", "scene.bodies[0].mass=-1 kg"}, "negative_mass", "-1 kg"},
-        BadLine{{experiment("paper"), "--set", "plant.integrator=rk5"}, "unknown_value",
-                "expected one of semi_implicit_euler, leapfrog, rk4, dormand_prince, dop853, gauss8, rodas3, rodas4, "
+        BadLine{{experiment("paper"), "--set", "plant.integrator=rk5"},
+                "unknown_value",
+                "expected one of semi_implicit_euler, leapfrog, rk4, dormand_prince, dop853, gauss8, rodas3, "
+                "rodas4, "
                 "auto"},
-        BadLine{{experiment("paper"), "--set", "plant.local_error=1e-9"}, "out_of_range", "rk4 has no estimate"},
-        BadLine{{experiment("paper"), "--set", "plant={integrator: auto, local_error: 2}"}, "out_of_range",
+        BadLine{
+            {experiment("paper"), "--set", "plant.local_error=1e-9"}, "out_of_range", "rk4 has no estimate"},
+        BadLine{{experiment("paper"), "--set", "plant={integrator: auto, local_error: 2}"},
+                "out_of_range",
                 "1e-14 to 0.1"},
-        BadLine{{experiment("paper"), "--set", "plant={integrator: auto, substeps: 2}"}, "doubly_defined",
+        BadLine{{experiment("paper"), "--set", "plant={integrator: auto, substeps: 2}"},
+                "doubly_defined",
                 "finds the substeps itself"},
-        BadLine{{experiment("paper"), "--set", "plant={integrator: rodas4, control: continuous}"}, "out_of_range",
+        BadLine{{experiment("paper"), "--set", "plant={integrator: rodas4, control: continuous}"},
+                "out_of_range",
                 "the controller's share"},
-        BadLine{{experiment("paper"), "--set", "plant={integrator: auto, control: continuous}"}, "out_of_range",
+        BadLine{{experiment("paper"), "--set", "plant={integrator: auto, control: continuous}"},
+                "out_of_range",
                 "name one"},
-        BadLine{{experiment("paper"), "--set", "plant={integrator: dop853, local_error: 1e-9, control: continuous}"},
-                "out_of_range", "fixed stages"},
-        BadLine{{experiment("paper"), "--set", "plant={integrator: auto, local_error: 1e-14}", "--set", "rate=10 Hz"},
-                "out_of_reach", "no integrator keeps"},
+        BadLine{{experiment("paper"), "--set",
+                 "plant={integrator: dop853, local_error: 1e-9, control: continuous}"},
+                "out_of_range",
+                "fixed stages"},
+        BadLine{{experiment("paper"), "--set", "plant={integrator: auto, local_error: 1e-14}", "--set",
+                 "rate=10 Hz"},
+                "out_of_reach",
+                "no integrator keeps"},
         BadLine{{experiment("paper"), "--set", "nonsense"}, "invalid_override", "key=value"},
         BadLine{{experiment("paper"), "--sett", "x=1"}, "command_line", "--sett"}}) {
     SCOPED_TRACE(words.back());

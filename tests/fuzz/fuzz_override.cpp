@@ -11,7 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto equals = std::min(line.find('='), line.size());
   refuses_or_reads("", [&] {
     const NodePtr document = parse_document(text.substr(line_end), "fuzz");
-    const NodePtr changed = override_entry(document, line.substr(0, equals), line.substr(std::min(equals + 1, line.size())));
+    const NodePtr changed =
+        override_entry(document, line.substr(0, equals), line.substr(std::min(equals + 1, line.size())));
     require(changed != nullptr && changed != document, "an override makes a new document");
   });
   return 0;

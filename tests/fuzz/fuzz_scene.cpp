@@ -24,6 +24,8 @@ void evaluate_once(std::shared_ptr<const Scene> scene) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  refuses_or_reads("fuzz", [&] { evaluate_once(std::make_shared<const Scene>(load_scene(parse_document(text_of(data, size), "fuzz")))); });
+  refuses_or_reads("fuzz", [&] {
+    evaluate_once(std::make_shared<const Scene>(load_scene(parse_document(text_of(data, size), "fuzz"))));
+  });
   return 0;
 }

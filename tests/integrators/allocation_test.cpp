@@ -12,8 +12,8 @@ class Ticks : public testing::TestWithParam<MethodFacts> {};
 
 TEST_P(Ticks, AllocateNothing) {
   if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has its own malloc";
-  const auto scene =
-      std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES) / "mixed_loop_robot.yaml"));
+  const auto scene = std::make_shared<const Scene>(
+      load_scene(std::filesystem::path(MIXLOOP_SCENES) / "mixed_loop_robot.yaml"));
   PlantSettings settings{.integrator = GetParam().method, .substeps = 2};
   for (const double local_error : {0.0, 1e-12}) {
     if (local_error > 0 && !GetParam().error_control) continue;

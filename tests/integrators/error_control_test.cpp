@@ -15,8 +15,9 @@ using Pairs = testing::Types<DormandPrince<double>, Dop853<double>>;
 TYPED_TEST_SUITE(ErrorControl, Pairs);
 
 StepCount controlled(auto& method, Vector& x, double length, double tolerance, int most = 10000) {
-  return controlled_steps(method, x, 3, length, tolerance, most,
-                          [](double t, const Vector& at, Vector& dx) { KnownMotion<double>::rate(t, at, dx); });
+  return controlled_steps(method, x, 3, length, tolerance, most, [](double t, const Vector& at, Vector& dx) {
+    KnownMotion<double>::rate(t, at, dx);
+  });
 }
 
 TYPED_TEST(ErrorControl, KeepsTheToleranceAndPaysMoreForMore) {

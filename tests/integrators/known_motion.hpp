@@ -47,7 +47,9 @@ struct KnownMotion {
 /// A step of any method from time t on.
 template <class Method, class T>
 void step_known(Method& method, const T& t, const T& h, Vec<T>& x) {
-  const auto rate = [&](int, const T& c, const Vec<T>& at, Vec<T>& dx) { KnownMotion<T>::rate(t + c * h, at, dx); };
+  const auto rate = [&](int, const T& c, const Vec<T>& at, Vec<T>& dx) {
+    KnownMotion<T>::rate(t + c * h, at, dx);
+  };
   if constexpr (requires { Method::Table::kGamma; })
     method.step(x, h, rate, [&](const Vec<T>& at, auto& J) { KnownMotion<T>::linearise(t, at, J); });
   else

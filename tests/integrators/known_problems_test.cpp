@@ -77,11 +77,12 @@ INSTANTIATE_TEST_SUITE_P(All, KnownProblems,
                                          Known{Method::leapfrog, 4000, 2e-5}, Known{Method::rk4, 1000, 2e-8},
                                          Known{Method::dormand_prince, 1000, 3e-11},
                                          Known{Method::dop853, 400, 1e-11}, Known{Method::gauss8, 200, 3e-11},
-                                         Known{Method::rodas3, 1000, 1e-5}, Known{Method::rodas4, 1000, 2e-8}),
+                                         Known{Method::rodas3, 1000, 1e-5},
+                                         Known{Method::rodas4, 1000, 2e-8}),
                          [](const auto& row) { return std::string(facts(row.param.method).name); });
 
-// To the printed digits, but for what hundreds of steps of 1e-14 and 1e-13 may add: 3e-12 and, over the crank's nine
-// turns, 2e-10.
+// To the printed digits, but for what hundreds of steps of 1e-14 and 1e-13 may add: 3e-12 and, over the
+// crank's nine turns, 2e-10.
 TEST(KnownProblems, UnderErrorControl) {
   Mechanism bars("double_four_bar.yaml"), crank("spatial_slider_crank.yaml");
   for (const Method method : {Method::dormand_prince, Method::dop853}) {

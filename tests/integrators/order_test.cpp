@@ -27,8 +27,9 @@ class Order : public testing::Test {
   }
 };
 
-using Methods = testing::Types<SemiImplicitEuler<Wide>, Leapfrog<Wide>, Rk4<Wide>, DormandPrince<Wide>, Dop853<Wide>,
-                               Gauss<Wide, 2>, Gauss<Wide, 4>, Gauss<Wide, 5>, Rodas3<Wide>, Rodas4<Wide>>;
+using Methods =
+    testing::Types<SemiImplicitEuler<Wide>, Leapfrog<Wide>, Rk4<Wide>, DormandPrince<Wide>, Dop853<Wide>,
+                   Gauss<Wide, 2>, Gauss<Wide, 4>, Gauss<Wide, 5>, Rodas3<Wide>, Rodas4<Wide>>;
 TYPED_TEST_SUITE(Order, Methods);
 
 template <class Method>

@@ -17,8 +17,7 @@ double radius(Method method, double a, double b, int steps) {
   for (int column = 0; column < 2; ++column) {
     Vector x = Vector::Unit(2, column);
     integrator.advance(
-        x, steps,
-        [&](int, int, double, const Vector& at, Vector& dx) { dx << at[1], a * at[0] + b * at[1]; },
+        x, steps, [&](int, int, double, const Vector& at, Vector& dx) { dx << at[1], a * at[0] + b * at[1]; },
         [&](double, const Vector&, auto& J) { J.by_q(0, 0) = a, J.by_v(0, 0) = b; });
     map.col(column) = x;
   }

@@ -72,8 +72,9 @@ INSTANTIATE_TEST_SUITE_P(All, Stages, testing::ValuesIn(all_methods()),
                          [](const auto& row) { return std::string(row.param.name); });
 
 TEST(MethodNames, AreTheWordsOfExperiments) {
-  EXPECT_EQ(method_names(), (std::vector<std::string>{"semi_implicit_euler", "leapfrog", "rk4", "dormand_prince",
-                                                      "dop853", "gauss8", "rodas3", "rodas4"}));
+  EXPECT_EQ(method_names(),
+            (std::vector<std::string>{"semi_implicit_euler", "leapfrog", "rk4", "dormand_prince", "dop853",
+                                      "gauss8", "rodas3", "rodas4"}));
   for (const MethodFacts& method : all_methods()) EXPECT_EQ(&facts(method.method), &method);
 }
 

@@ -119,8 +119,13 @@ TEST(Arrivals, read_back_as_they_were_written) {
                     .at = 1.0 / 3,
                     .duration = 2e-7};
   const Arrivals arrivals = {
-      .commands = {{0, 17, 0, 0}, {1, 99'000, 1, 0}, {3, 5, 2, 2}, {3, 70, 3, Arrival::kBlind},
-                   {4, 7, 4, 0, true}, {5, 7, 5, 3, true}, {6, 7, 6, Arrival::kBlind, true}},
+      .commands = {{0, 17, 0, 0},
+                   {1, 99'000, 1, 0},
+                   {3, 5, 2, 2},
+                   {3, 70, 3, Arrival::kBlind},
+                   {4, 7, 4, 0, true},
+                   {5, 7, 5, 3, true},
+                   {6, 7, 6, Arrival::kBlind, true}},
       .interventions = {{.tick = 2, .fault = fault}, {.tick = 9, .cause = "the plant itself was suspended"}}};
   write_arrivals(folder.file("ages.csv"), arrivals);
   const auto back = read_arrivals(folder.file("ages.csv"));

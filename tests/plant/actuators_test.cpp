@@ -13,8 +13,8 @@ namespace mixloop {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-// DOP853 at 1 ms adds less than (h / T)^9 < 1e-11 a tick where torques change over T = 20 ms or more; over the 200 ticks
-// of these tests round-off and that stay below 1e-11.
+// DOP853 at 1 ms adds less than (h / T)^9 < 1e-11 a tick where torques change over T = 20 ms or more; over
+// the 200 ticks of these tests round-off and that stay below 1e-11.
 constexpr double kIntegrated = 1e-11;
 const PlantSettings kFine{.integrator = Method::dop853};
 
@@ -49,8 +49,8 @@ TEST(Actuators, RampAtTheirRateAndStop) {
   EXPECT_EQ(up.next_kink(0.2), HUGE_VAL);
 }
 
-// A lag's answer to a ramp that stops at s1 is that to two endless ones: R (g(s) - g(s - s1)), g(s) = s - T (1 -
-// exp(-s/T)).
+// A lag's answer to a ramp that stops at s1 is that to two endless ones: R (g(s) - g(s - s1)), g(s) = s - T
+// (1 - exp(-s/T)).
 TEST(Actuators, LagBehindTheirRamp) {
   constexpr double kT = 0.02, kR = 40, kEnd = 2 / kR;
   const Actuators drives = stepped({.rate_limit = {kR}, .time_constant = {kT}}, 1, 3);
@@ -74,8 +74,8 @@ TEST(Actuators, StartSettledOnTheFirstCommand) {
   EXPECT_EQ(plant.applied()[1], -3);
 }
 
-// w = u (t - T (1 - e^(-t/T))), psi = u (t^2/2 - T t + T^2 (1 - e^(-t/T))), t from where the step acts: after the dead
-// time, which comes first and isn't a whole number of ticks.
+// w = u (t - T (1 - e^(-t/T))), psi = u (t^2/2 - T t + T^2 (1 - e^(-t/T))), t from where the step acts: after
+// the dead time, which comes first and isn't a whole number of ticks.
 TEST(Actuators, TurnAWheelByTheIntegralsOfALaggedStep) {
   constexpr double kT = 0.02, kU = 5, kDead = 0.0024;
   PlantSettings settings = kFine;
@@ -111,7 +111,8 @@ TEST(Actuators, RippleWithTheAngle) {
       const double tau[] = {kU, 0};
       plant.command(tau);
       if (continuous)
-        plant.advance_continuously([](int, double, auto, auto, std::span<double> out) { out[0] = kU, out[1] = 0; });
+        plant.advance_continuously(
+            [](int, double, auto, auto, std::span<double> out) { out[0] = kU, out[1] = 0; });
       else
         plant.advance();
     }
@@ -173,8 +174,11 @@ TEST(Actuators, PutTheWorkThatTheyDoIntoTheMechanism) {
 
 TEST(Actuators, GiveTheBytesOfIdealOnesWhereTheyDoNothing) {
   Plant ideal = rig_plant({.substeps = 3, .command_delay = 0.0004});
-  Plant idle = rig_plant({.substeps = 3, .command_delay = 0.0004, .sensors = {.bias = {0, 0}},
-                          .actuators = {.time_constant = {0, 0}, .viscous = {0, 0}}, .faults = {.injected = true}});
+  Plant idle = rig_plant({.substeps = 3,
+                          .command_delay = 0.0004,
+                          .sensors = {.bias = {0, 0}},
+                          .actuators = {.time_constant = {0, 0}, .viscous = {0, 0}},
+                          .faults = {.injected = true}});
   for (int k = 0; k < 100; ++k)
     for (Plant* plant : {&ideal, &idle}) go_on(*plant, 1, std::sin(0.3 * k), 1.0 / (k + 1));
   for (int i = 0; i < 2; ++i) {

@@ -8,8 +8,8 @@
 namespace mixloop {
 namespace {
 
-// A statistic of N independent draws stays within 4.4 of its standard deviations but for once in 1e5 seeds; the seeds
-// are fixed, so that these tests either hold or don't.
+// A statistic of N independent draws stays within 4.4 of its standard deviations but for once in 1e5 seeds;
+// the seeds are fixed, so that these tests either hold or don't.
 constexpr double kSigmas = 4.4;
 constexpr int kDraws = 40'000;
 const double kRoot = std::sqrt(double{kDraws});
@@ -24,7 +24,8 @@ TEST(Chance, DrawsUniformNumbersWithTheMomentsOfSuch) {
     before = u;
   }
   EXPECT_LT(std::abs(sum / kDraws), kSigmas * std::sqrt(1 / 12.0) / kRoot);
-  EXPECT_LT(std::abs(squares / kDraws - 1 / 12.0), kSigmas * std::sqrt(1 / 180.0) / kRoot);  // var u^2 = 1/80 - 1/144
+  EXPECT_LT(std::abs(squares / kDraws - 1 / 12.0),
+            kSigmas * std::sqrt(1 / 180.0) / kRoot);  // var u^2 = 1/80 - 1/144
   EXPECT_LT(std::abs(neighbours / kDraws), kSigmas / 12 / kRoot);
 }
 
@@ -54,7 +55,8 @@ TEST(Chance, IsAFunctionOfItsArguments) {
   for (const std::uint64_t seed : {0, 1, 2})
     for (const std::int64_t tick : {0, 1, 1000})
       for (const std::size_t channel : {0, 1})
-        for (const Draw draw : {Draw::noise, Draw::drop, Draw::motor_fault, Draw::position_fault, Draw::velocity_fault}) {
+        for (const Draw draw :
+             {Draw::noise, Draw::drop, Draw::motor_fault, Draw::position_fault, Draw::velocity_fault}) {
           seen.insert(Chance(seed).uniform(tick, channel, draw));
           EXPECT_EQ(Chance(seed).uniform(tick, channel, draw), Chance(seed).uniform(tick, channel, draw));
           ++draws;

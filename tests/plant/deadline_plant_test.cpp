@@ -124,9 +124,10 @@ TEST(DeadlinePlant, goes_its_way_when_commands_come_late_and_doubled) {
   bench.live(10);
   const std::vector<double> more = {1, 2, 3}, old = {9, 9, 9};
   bench.hardware.finish_tick();
-  bench.hardware.command({.offset = 5, .command = 10}, more);  // of the tick before: newer than what is in effect
-  bench.hardware.command({.offset = 6, .command = 10}, old);   // doubled
-  bench.hardware.command({.offset = 7, .command = 4}, old);    // older
+  bench.hardware.command({.offset = 5, .command = 10},
+                         more);  // of the tick before: newer than what is in effect
+  bench.hardware.command({.offset = 6, .command = 10}, old);  // doubled
+  bench.hardware.command({.offset = 7, .command = 4}, old);   // older
   bench.hardware.finish_tick();
   EXPECT_EQ(map_of(bench.hardware.commanded()), map_of(std::span<const double>(more)));
   EXPECT_EQ(bench.hardware.missed(), 2);

@@ -31,8 +31,7 @@ std::vector<double> through(Kind kind, double magnitude, std::uint64_t seed = 1,
 }
 
 void expect_within(const std::vector<double>& out, const std::function<double(int)>& expected) {
-  for (int k = 0; k < kTicks; ++k)
-    EXPECT_EQ(out[k], k >= kBegin && k < kEnd ? expected(k) : value(k)) << k;
+  for (int k = 0; k < kTicks; ++k) EXPECT_EQ(out[k], k >= kBegin && k < kEnd ? expected(k) : value(k)) << k;
 }
 
 TEST(FaultFilter, LeavesTheSequenceWhereNothingIsWrong) { expect_within(through(Kind::none, 0), value); }
@@ -71,7 +70,8 @@ TEST(FaultFilter, GarbageIsAnythingUpToItsMagnitude) {
     EXPECT_NE(out[k], out[k - 1]);
     least = std::min(least, out[k]), most = std::max(most, out[k]);
   }
-  EXPECT_TRUE(least >= -2 && least < -1 && most < 2 && most > 1);  // 50 draws miss a quarter once in 1e6 seeds
+  EXPECT_TRUE(least >= -2 && least < -1 && most < 2 &&
+              most > 1);  // 50 draws miss a quarter once in 1e6 seeds
   EXPECT_EQ(out, through(Kind::garbage, 2)) << "the same seed";
   EXPECT_NE(out, through(Kind::garbage, 2, 2)) << "another seed";
 }
@@ -90,7 +90,8 @@ TEST(FaultFilter, IntermittentIsOffForItsShareOfTime) {
 }
 
 TEST(FaultFilter, TakesTheLastValueOfATick) {
-  for (const Kind kind : {Kind::stuck, Kind::garbage, Kind::wrong, Kind::slow, Kind::delayed, Kind::intermittent})
+  for (const Kind kind :
+       {Kind::stuck, Kind::garbage, Kind::wrong, Kind::slow, Kind::delayed, Kind::intermittent})
     EXPECT_EQ(through(kind, 0.02), through(kind, 0.02, 1, 3)) << static_cast<int>(kind);
 }
 

@@ -47,19 +47,21 @@ TEST(Faults, BetweenTicksBeginWithTheNext) {
 }
 
 TEST(Faults, StayUntilHealed) {
-  Plant plant = rig_plant(with_faults({{.kind = Kind::stuck, .index = 0, .at = 0.002},
-                                       {.kind = Kind::none, .index = 0, .at = 0.006}}));
+  Plant plant = rig_plant(with_faults(
+      {{.kind = Kind::stuck, .index = 0, .at = 0.002}, {.kind = Kind::none, .index = 0, .at = 0.006}}));
   EXPECT_EQ(torques(plant, 8), (std::vector<double>{1, 2, 2, 2, 2, 2, 7, 8}));
 }
 
 TEST(Faults, TakeAnEarlierOnesPlace) {
-  Plant plant = rig_plant(with_faults({{.kind = Kind::wrong, .index = 0, .magnitude = 10, .at = 0.001, .duration = 0.004},
-                                       {.kind = Kind::off, .index = 0, .at = 0.003, .duration = 0.001}}));
+  Plant plant = rig_plant(
+      with_faults({{.kind = Kind::wrong, .index = 0, .magnitude = 10, .at = 0.001, .duration = 0.004},
+                   {.kind = Kind::off, .index = 0, .at = 0.003, .duration = 0.001}}));
   EXPECT_EQ(torques(plant, 6), (std::vector<double>{1, 12, 13, 0, 5, 6}));
 }
 
 TEST(Faults, OfMotorsComeBeforeSaturationAndAfterDeadTime) {
-  PlantSettings settings = with_faults({{.kind = Kind::wrong, .index = 0, .magnitude = 10, .at = 0.003, .duration = 0.002}});
+  PlantSettings settings =
+      with_faults({{.kind = Kind::wrong, .index = 0, .magnitude = 10, .at = 0.003, .duration = 0.002}});
   settings.command_delay = 0.002;
   settings.torque_limit = {8, 8};
   Plant plant = rig_plant(settings);
@@ -75,8 +77,9 @@ TEST(Faults, OfAllStrikeAll) {
 }
 
 TEST(Faults, OfSensorsChangeWhatIsMeasuredNotWhatIs) {
-  Plant plant = rig_plant(with_faults({{.target = Target::sensor, .kind = Kind::wrong, .index = 1, .magnitude = 0.5},
-                                       {.target = Target::sensor, .kind = Kind::stuck, .index = 0, .at = 0.001}}));
+  Plant plant =
+      rig_plant(with_faults({{.target = Target::sensor, .kind = Kind::wrong, .index = 1, .magnitude = 0.5},
+                             {.target = Target::sensor, .kind = Kind::stuck, .index = 0, .at = 0.001}}));
   double psi[2], psid[2];
   for (int k = 0; k < 5; ++k) {
     EXPECT_FALSE(plant.measure(psi, psid));
@@ -90,8 +93,8 @@ TEST(Faults, OfSensorsChangeWhatIsMeasuredNotWhatIs) {
 }
 
 TEST(Faults, OfDifferentiatingSensorsGoIntoTheVelocity) {
-  PlantSettings settings =
-      with_faults({{.target = Target::sensor, .kind = Kind::wrong, .index = 0, .magnitude = 0.5, .at = 0.002}});
+  PlantSettings settings = with_faults(
+      {{.target = Target::sensor, .kind = Kind::wrong, .index = 0, .magnitude = 0.5, .at = 0.002}});
   settings.sensors.differentiated = true;
   Plant plant = rig_plant(settings);
   double psi[2], psid[2];
@@ -104,8 +107,12 @@ TEST(Faults, OfDifferentiatingSensorsGoIntoTheVelocity) {
 
 // w' = u / (1 + m): the wheel is heavier for 100 ticks.
 TEST(Faults, ChangeAParameterAndGiveItBack) {
-  Plant plant = rig_plant(with_faults(
-      {{.target = Target::parameter, .kind = Kind::changed, .index = 0, .magnitude = 3, .at = 0.1, .duration = 0.1}}));
+  Plant plant = rig_plant(with_faults({{.target = Target::parameter,
+                                        .kind = Kind::changed,
+                                        .index = 0,
+                                        .magnitude = 3,
+                                        .at = 0.1,
+                                        .duration = 0.1}}));
   go_on(plant, 100, 2);
   EXPECT_NEAR(plant.psid()[0], 0.2, 1e-14);  // a few hundred roundings of numbers below 1
   EXPECT_TRUE(plant.faults()->active());
@@ -124,8 +131,8 @@ TEST(Faults, ScaleFriction) {
   for (const Method method : {Method::dop853, Method::rodas4, Method::gauss8})
     for (const bool drive : {false, true}) {
       if (drive && method == Method::rodas4) continue;
-      PlantSettings settings =
-          with_faults({{.target = Target::friction, .kind = Kind::changed, .magnitude = kF, .at = 0.1}}, method);
+      PlantSettings settings = with_faults(
+          {{.target = Target::friction, .kind = Kind::changed, .magnitude = kF, .at = 0.1}}, method);
       settings.substeps = method == Method::rodas4 ? 10 : 1;
       if (drive) settings.actuators.viscous = {kD, 0};
       Plant plant = rig_plant(settings, drive ? 0 : kD);
@@ -168,20 +175,22 @@ TEST(Faults, AreInjectedAtOnceOrLaterWhereThatIsAllowed) {
 TEST(Faults, ThatCannotBeAreNotInjected) {
   Plant plant = rig_plant({.faults = {.injected = true}});
   const double nan = std::nan("");
-  for (const Fault& fault : {Fault{.kind = Kind::off, .index = 2}, Fault{.kind = Kind::off, .index = -2},
-                             Fault{.kind = Kind::garbage, .magnitude = 0}, Fault{.kind = Kind::wrong, .magnitude = nan},
-                             Fault{.kind = Kind::off, .at = nan}, Fault{.kind = Kind::off, .duration = -1},
-                             Fault{.kind = Kind::slow, .magnitude = -1}, Fault{.kind = Kind::delayed, .magnitude = 2},
-                             Fault{.kind = Kind::intermittent, .magnitude = 1.5}, Fault{.kind = Kind::changed},
-                             Fault{.kind = static_cast<Kind>(99)},
-                             Fault{.target = Target::parameter, .kind = Kind::changed, .index = 0, .magnitude = -1},
-                             Fault{.target = Target::parameter, .kind = Kind::changed, .index = 1, .magnitude = 2},
-                             Fault{.target = Target::parameter, .kind = Kind::changed, .index = 2, .magnitude = 2},
-                             Fault{.target = Target::parameter, .kind = Kind::changed, .index = -1, .magnitude = 2},
-                             Fault{.target = Target::parameter, .kind = Kind::off, .index = 0},
-                             Fault{.target = Target::friction, .kind = Kind::changed, .magnitude = -1},
-                             Fault{.target = static_cast<Target>(99), .kind = Kind::off}})
-    EXPECT_FALSE(plant.inject(fault)) << static_cast<int>(fault.target) << " " << static_cast<int>(fault.kind);
+  for (const Fault& fault :
+       {Fault{.kind = Kind::off, .index = 2}, Fault{.kind = Kind::off, .index = -2},
+        Fault{.kind = Kind::garbage, .magnitude = 0}, Fault{.kind = Kind::wrong, .magnitude = nan},
+        Fault{.kind = Kind::off, .at = nan}, Fault{.kind = Kind::off, .duration = -1},
+        Fault{.kind = Kind::slow, .magnitude = -1}, Fault{.kind = Kind::delayed, .magnitude = 2},
+        Fault{.kind = Kind::intermittent, .magnitude = 1.5}, Fault{.kind = Kind::changed},
+        Fault{.kind = static_cast<Kind>(99)},
+        Fault{.target = Target::parameter, .kind = Kind::changed, .index = 0, .magnitude = -1},
+        Fault{.target = Target::parameter, .kind = Kind::changed, .index = 1, .magnitude = 2},
+        Fault{.target = Target::parameter, .kind = Kind::changed, .index = 2, .magnitude = 2},
+        Fault{.target = Target::parameter, .kind = Kind::changed, .index = -1, .magnitude = 2},
+        Fault{.target = Target::parameter, .kind = Kind::off, .index = 0},
+        Fault{.target = Target::friction, .kind = Kind::changed, .magnitude = -1},
+        Fault{.target = static_cast<Target>(99), .kind = Kind::off}})
+    EXPECT_FALSE(plant.inject(fault))
+        << static_cast<int>(fault.target) << " " << static_cast<int>(fault.kind);
   for (std::size_t i = 0; i < Faults::kWaiting; ++i) EXPECT_TRUE(plant.inject({.kind = Kind::off, .at = 1}));
   EXPECT_FALSE(plant.inject({.kind = Kind::off, .at = 1})) << "no more can wait";
 }
@@ -189,13 +198,23 @@ TEST(Faults, ThatCannotBeAreNotInjected) {
 TEST(Faults, AndAllElseAllocateNothing) {
   if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has its own malloc";
   PlantSettings settings{.torque_limit = {2, 2}};
-  settings.sensors = {.resolution = {1e-3, 1e-3}, .noise = {1e-3, 1e-3}, .delay = {2, 1}, .drop = {0.1, 0.1},
-                      .differentiated = true, .velocity_filter = 100};
-  settings.actuators = {.rate_limit = {100, 100}, .time_constant = {0.001, 0}, .ripple = {0.1, 0},
-                        .ripple_per_turn = {6, 1}, .viscous = {0.1, 0.1}, .coulomb = {0.1, 0.1}, .smooth = {1, 1}};
+  settings.sensors = {.resolution = {1e-3, 1e-3},
+                      .noise = {1e-3, 1e-3},
+                      .delay = {2, 1},
+                      .drop = {0.1, 0.1},
+                      .differentiated = true,
+                      .velocity_filter = 100};
+  settings.actuators = {.rate_limit = {100, 100},
+                        .time_constant = {0.001, 0},
+                        .ripple = {0.1, 0},
+                        .ripple_per_turn = {6, 1},
+                        .viscous = {0.1, 0.1},
+                        .coulomb = {0.1, 0.1},
+                        .smooth = {1, 1}};
   settings.faults.injected = true;
   for (const double at : {0.002, 0.004, 0.006})
-    settings.faults.scheduled.push_back({.kind = Kind::delayed, .magnitude = 0.002, .at = at, .duration = 0.001});
+    settings.faults.scheduled.push_back(
+        {.kind = Kind::delayed, .magnitude = 0.002, .at = at, .duration = 0.001});
   Plant plant = rig_plant(settings, 0.5);
   double psi[2], psid[2];
   const AllocationCounter counter;

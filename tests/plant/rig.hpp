@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mechanism with answers by hand, for the tests of drives, sensors and faults: a wheel of 1 kg m^2 that a rotary motor
-// turns and a slide of 2 kg that a linear one moves, neither knowing of the other.
+// A mechanism with answers by hand, for the tests of drives, sensors and faults: a wheel of 1 kg m^2 that a
+// rotary motor turns and a slide of 2 kg that a linear one moves, neither knowing of the other.
 #pragma once
 
 #include <memory>

@@ -19,7 +19,8 @@ struct Reading {
   bool stale;
 };
 template <class Course>
-std::vector<Reading> readings(const SensorSettings& settings, int ticks, const Course& course, std::uint64_t seed = 1) {
+std::vector<Reading> readings(const SensorSettings& settings, int ticks, const Course& course,
+                              std::uint64_t seed = 1) {
   Sensors sensors(settings, seed, 1, kRate);
   std::vector<Reading> all;
   for (int k = 0; k < ticks; ++k) {
@@ -104,7 +105,8 @@ TEST(Sensors, LowPassTheDifferences) {
     return State{kV * k / kRate, 77.0};
   });
   for (int k = 0; k < 200; ++k)
-    EXPECT_NEAR(said[k].psid, kV * -std::expm1(-2 * std::numbers::pi * kF * k / kRate), 1e-12) << k;  // 200 roundings
+    EXPECT_NEAR(said[k].psid, kV * -std::expm1(-2 * std::numbers::pi * kF * k / kRate), 1e-12)
+        << k;  // 200 roundings
 }
 
 TEST(Sensors, SayTheSameWheneverTheyAreAskedAgain) {

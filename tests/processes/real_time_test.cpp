@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `mixloop run --realtime`, its operator, and its bad days. Slowed down, so that the ticks that may be missed bear
-// a busy machine's holes; started paused, so that what is done to it takes none of its time.
+// `mixloop run --realtime`, its operator, and its bad days. Slowed down, so that the ticks that may be missed
+// bear a busy machine's holes; started paused, so that what is done to it takes none of its time.
 #include <gmock/gmock.h>
 
 #include <csignal>

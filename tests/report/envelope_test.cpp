@@ -50,7 +50,8 @@ TEST(Envelope, LosesNoPeakWhereverItStands) {
     ASSERT_LE(points.size(), 32u);
     for (std::size_t bucket = 0; 2 * bucket < points.size(); ++bucket) {
       const auto first = values.begin() + static_cast<std::ptrdiff_t>(bucket * width);
-      const auto last = values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), (bucket + 1) * width));
+      const auto last =
+          values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), (bucket + 1) * width));
       const auto [least, greatest] = std::minmax_element(first, last);
       const auto [low, high] = std::minmax(points[2 * bucket], points[2 * bucket + 1]);
       EXPECT_EQ(low, *least);

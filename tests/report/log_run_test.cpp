@@ -93,7 +93,7 @@ TEST(LogRun, PutsTheMessagesOfATickTogether) {
   EXPECT_EQ(all.ticks[1].psi_desired[0], 0.6);
   EXPECT_EQ(all.ticks[1].tau_applied[0], 20);
   EXPECT_THAT(all.ticks[0].command_age, DoubleNear(5250e-6, 1e-15));  // a double's rounding of a microsecond
-  EXPECT_EQ(all.ticks[1].work, 10 * 0.5);  // tau(0) (psi(1) - psi(0))
+  EXPECT_EQ(all.ticks[1].work, 10 * 0.5);                             // tau(0) (psi(1) - psi(0))
   EXPECT_EQ(all.facts.commands_missing + all.facts.states_missing + all.facts.references_missing, 0);
 }
 

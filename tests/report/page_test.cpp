@@ -11,7 +11,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* kPage = R"(<html><script id="mixloop-data" type="application/json">null</script></html>)";
+constexpr const char* kPage =
+    R"(<html><script id="mixloop-data" type="application/json">null</script></html>)";
 
 ReportedRun noisy_run(std::int64_t ticks, std::size_t capacity) {
   ReportedRun run{{.label = "</script><img src=x onerror=alert(1)>", .rate_hz = 1000, .n = 1},
@@ -34,9 +35,7 @@ TEST(Page, TakesDataThatCannotEndItsScript) {
   EXPECT_THAT(page, Not(HasSubstr("<b>")));
 }
 
-TEST(Page, RefusesOneWithoutAPlaceForData) {
-  EXPECT_THROW(with_data("<html></html>", nullptr), RunFault);
-}
+TEST(Page, RefusesOneWithoutAPlaceForData) { EXPECT_THROW(with_data("<html></html>", nullptr), RunFault); }
 
 TEST(Page, CoarsensCurvesUntilItIsSmallEnough) {
   std::vector<ReportedRun> runs;

@@ -13,8 +13,9 @@ namespace {
 
 TEST(TrajectoryReader, FindsColumnsByTheirNames) {
   ScratchFolder folder;
-  const auto file = folder.write("t.csv", "t,psi_1,psi_2,of_tomorrow,tau_2,velocity_y_actual,psi_desired_1\n"
-                                          "0,1,2,3,4,5,6\n0.001,1e-3,-2,3,inf,nan,7");
+  const auto file = folder.write("t.csv",
+                                 "t,psi_1,psi_2,of_tomorrow,tau_2,velocity_y_actual,psi_desired_1\n"
+                                 "0,1,2,3,4,5,6\n0.001,1e-3,-2,3,inf,nan,7");
   TrajectoryReader reader(file);
   EXPECT_EQ(reader.n(), 2u);
   std::vector<Tick> ticks;
@@ -46,12 +47,13 @@ TEST_P(BadTrajectory, IsRefusedWithItsPlace) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, BadTrajectory,
-    testing::Values(BadInput{"empty", "", "cannot_read", "t.csv: is empty"},
-                    BadInput{"no_header", "1,2,3\n", "not_a_trajectory", "t.csv:1: no header"},
-                    BadInput{"no_motor", "t,x\n0,0\n", "not_a_trajectory", "t,psi_1"},
-                    BadInput{"cut_off", "t,psi_1\n0,1\n0.001", "not_a_trajectory", "t.csv:3: no number for t"},
-                    BadInput{"word", "t,psi_1\n0,one\n", "not_a_trajectory", "t.csv:2: no number for psi_1"},
-                    BadInput{"too_many", "t,psi_1\n0,1,2\n", "not_a_trajectory", "t.csv:2: no number for psi_1"}),
+    testing::Values(
+        BadInput{"empty", "", "cannot_read", "t.csv: is empty"},
+        BadInput{"no_header", "1,2,3\n", "not_a_trajectory", "t.csv:1: no header"},
+        BadInput{"no_motor", "t,x\n0,0\n", "not_a_trajectory", "t,psi_1"},
+        BadInput{"cut_off", "t,psi_1\n0,1\n0.001", "not_a_trajectory", "t.csv:3: no number for t"},
+        BadInput{"word", "t,psi_1\n0,one\n", "not_a_trajectory", "t.csv:2: no number for psi_1"},
+        BadInput{"too_many", "t,psi_1\n0,1,2\n", "not_a_trajectory", "t.csv:2: no number for psi_1"}),
     bad_input_name);
 
 }  // namespace

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "loop/recorder.hpp"
+#include "runtime/bus/wire.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/histogram.hpp"
 #include "runtime/clock/plant_time.hpp"
-#include "runtime/bus/wire.hpp"
 #include "tests/stress/figure.hpp"
 #include "tests/stress/routes.hpp"
 #include "tests/stress/scenes.hpp"

@@ -29,8 +29,8 @@ TEST(ReportPage, PansALongRunOfFewPoints) {
   ASSERT_EQ(simulate.wait(), 0) << simulate.err();
   Command report({bin("mixloop"), "report", out});
   ASSERT_EQ(report.wait(), 0) << report.err();
-  Command pan({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/pan.mjs", MIXLOOP_CHROMIUM,
-               out + "/report.html"});
+  Command pan(
+      {MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/pan.mjs", MIXLOOP_CHROMIUM, out + "/report.html"});
   EXPECT_EQ(pan.wait(std::chrono::seconds(280)), 0) << pan.out() << pan.err();
   RecordProperty("rate", pan.out());
 }

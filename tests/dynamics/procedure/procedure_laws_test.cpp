@@ -209,8 +209,8 @@ TEST(RandomMechanisms, EndEffectorDerivativesAreThoseOfItsPosition) {
         for (int i = 0; i < mechanism.n(); ++i) {
           const WideVector e = step * WideVector::Unit(mechanism.n(), i);
           const WideVector column = (evaluation.end(s.psi + e, s.psid, s.input, s.t).position -
-                               evaluation.end(s.psi - e, s.psid, s.input, s.t).position) /
-                              (2 * step);
+                                     evaluation.end(s.psi - e, s.psid, s.input, s.t).position) /
+                                    (2 * step);
           EXPECT_LT(distance(end.jacobian.col(i), column), 1e-15);
         }
       });

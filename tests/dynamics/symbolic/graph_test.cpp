@@ -26,7 +26,9 @@ class GraphTest : public ::testing::Test {
     interpreter.evaluate({at.data(), nullptr, nullptr, 0.0}, &out);
     return out;
   }
-  OperationCount operations(const Expression& x) { return make_program(graph_, std::vector{x.node()}).run_operations(); }
+  OperationCount operations(const Expression& x) {
+    return make_program(graph_, std::vector{x.node()}).run_operations();
+  }
 
   Graph graph_;
   Recording recording_{graph_};
@@ -79,7 +81,9 @@ TEST_F(GraphTest, ZerosOnesAndNumbersFold) {
   EXPECT_EQ((Expression(1.0) + (Expression(2.0) + psi(0))).node(), (psi(0) + Expression(3.0)).node());
 }
 
-TEST_F(GraphTest, ABranchOnWhatIsRecordedThrows) { EXPECT_THROW((void)(psi(0) < Expression(1.0)), std::logic_error); }
+TEST_F(GraphTest, ABranchOnWhatIsRecordedThrows) {
+  EXPECT_THROW((void)(psi(0) < Expression(1.0)), std::logic_error);
+}
 
 TEST_F(GraphTest, AnglesThatDifferByAConstantShareOnePair) {
   const Expression x = sin(psi(0)) + cos(psi(0) + Expression(0.5)) * sin(-psi(0) - Expression(1.25));
@@ -101,7 +105,8 @@ TEST_F(GraphTest, AnglesMergeAcrossRoundedCoefficients) {
 }
 
 TEST_F(GraphTest, AQuarterTurnLeavesNoResidue) {
-  EXPECT_EQ(sin(psi(0) + Expression(std::numbers::pi / 2)).node(), sin(psi(0) + Expression(std::numbers::pi / 2)).node());
+  EXPECT_EQ(sin(psi(0) + Expression(std::numbers::pi / 2)).node(),
+            sin(psi(0) + Expression(std::numbers::pi / 2)).node());
   EXPECT_EQ((sin(psi(0)) + Expression(0.0) * psi(1)).node(), sin(psi(0)).node());
   EXPECT_EQ(cos(psi(0) + Expression(std::numbers::pi / 2)).node(), (-sin(psi(0))).node());
 }
@@ -121,7 +126,8 @@ TEST_F(GraphTest, ForwardAndReverseDerivativesAgreeWithDifferences) {
     std::vector<double> above{at[0], at[1]}, below = above;
     above[i] += step, below[i] -= step;
     const double difference = (value(f, above) - value(f, below)) / (2 * step);
-    const NodeId forward = tangents(graph_, std::vector{f.node()}, std::vector{inputs[i]}, std::vector{graph_.one()})[0];
+    const NodeId forward =
+        tangents(graph_, std::vector{f.node()}, std::vector{inputs[i]}, std::vector{graph_.one()})[0];
     EXPECT_NEAR(value(Expression::of(forward), {at[0], at[1]}), difference, 1e-9);  // error of the difference
     EXPECT_NEAR(value(Expression::of(reverse[i]), {at[0], at[1]}), difference, 1e-9);
   }
@@ -129,7 +135,8 @@ TEST_F(GraphTest, ForwardAndReverseDerivativesAgreeWithDifferences) {
 
 TEST_F(GraphTest, SubstitutionRewritesWhatDependsOnTheInput) {
   const Expression f = psi(0) * psi(0) + psi(1);
-  const NodeId now = substituted(graph_, std::vector{f.node()}, std::vector{psi(0).node()}, std::vector{psi(2).node()})[0];
+  const NodeId now =
+      substituted(graph_, std::vector{f.node()}, std::vector{psi(0).node()}, std::vector{psi(2).node()})[0];
   EXPECT_EQ(now, (psi(2) * psi(2) + psi(1)).node());
 }
 
@@ -141,7 +148,8 @@ TEST_F(GraphTest, OnlyWhatTheOutputsNeedIsInAProgram) {
 
 TEST_F(GraphTest, WhatDependsOnParametersAloneRunsBeforehand) {
   const Expression mass = Expression::input(Block::parameter, 0);
-  const Program program = make_program(graph_, std::vector{((mass * mass + Expression(1.0)) * psi(0)).node()});
+  const Program program =
+      make_program(graph_, std::vector{((mass * mass + Expression(1.0)) * psi(0)).node()});
   EXPECT_EQ(program.set_up_operations().flops(), 2u);
   EXPECT_EQ(program.run_operations().flops(), 1u);
 }

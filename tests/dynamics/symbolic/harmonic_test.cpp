@@ -38,8 +38,8 @@ class PapersRobot : public ::testing::Test {
  protected:
   Graph graph_;
   Recording recording_{graph_};
-  HarmonicEnergy energy_ =
-      *harmonic_energy(std::make_shared<const Scene>(load_scene(MIXLOOP_SCENES "/mixed_loop_robot.yaml")), graph_);
+  HarmonicEnergy energy_ = *harmonic_energy(
+      std::make_shared<const Scene>(load_scene(MIXLOOP_SCENES "/mixed_loop_robot.yaml")), graph_);
 };
 
 TEST_F(PapersRobot, MassMatrixIsBlockDiagonalInSomeBasisOfRates) {
@@ -55,7 +55,8 @@ TEST_F(PapersRobot, OnlyThePayloadStaysVariable) { EXPECT_EQ(energy_.atoms.size(
 TEST(Harmonic, ConstraintsThatAreNotAffineAreNotItsKind) {
   Graph graph;
   const Recording recording(graph);
-  EXPECT_FALSE(harmonic_energy(std::make_shared<const Scene>(load_scene(MIXLOOP_SCENES "/spatial_slider_crank.yaml")), graph));
+  EXPECT_FALSE(harmonic_energy(
+      std::make_shared<const Scene>(load_scene(MIXLOOP_SCENES "/spatial_slider_crank.yaml")), graph));
 }
 
 }  // namespace

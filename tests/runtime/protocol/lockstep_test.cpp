@@ -94,8 +94,7 @@ class BadNetwork : public testing::TestWithParam<int> {};
 TEST_P(BadNetwork, loses_doubles_and_reorders_datagrams_without_changing_a_command) {
   std::vector<Started> children;
   int seed = 100 * GetParam();
-  for (const std::string& role : kRoles)
-    children.push_back(start(role, kTicks, bad_network(++seed)));
+  for (const std::string& role : kRoles) children.push_back(start(role, kTicks, bad_network(++seed)));
   const auto reports = finish_all(children, kRoles);
   EXPECT_GT(reports["plant"].value("resent", 0), 20) << "the network wasn't bad";
 }

@@ -11,7 +11,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Ticks of 20 ms, so that a busy machine changes nothing. tau = (psi_desired, tick, ahead), safe: (-1, -1, -1).
+/// Ticks of 20 ms, so that a busy machine changes nothing. tau = (psi_desired, tick, ahead), safe: (-1, -1,
+/// -1).
 class RealTimeController : public testing::Test {
  protected:
   RealTimeController() {
@@ -108,7 +109,8 @@ TEST_F(RealTimeController, sends_a_safe_command_on_stop_and_leaves) {
   send_state(0);
   command(0);
   script_.send("STOP", ScriptedPeer::message<stop_t>(0));
-  EXPECT_EQ(command(0).flags, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_STOPPED + command_t::FLAG_AFTERWARDS);
+  EXPECT_EQ(command(0).flags,
+            std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_STOPPED + command_t::FLAG_AFTERWARDS);
   EXPECT_EQ(peer_->ending(), Ending::stopped);
 }
 

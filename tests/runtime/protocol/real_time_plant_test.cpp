@@ -9,8 +9,8 @@
 #include <atomic>
 
 #include "notation/errors.hpp"
-#include "tests/support/command.hpp"
 #include "tests/runtime/protocol/scripted_peer.hpp"
+#include "tests/support/command.hpp"
 
 namespace mixloop {
 namespace {
@@ -186,7 +186,8 @@ TEST_F(RealTime, is_paused_and_stepped_and_goes_on) {
   EXPECT_LT(plant_->peer.report().slipped, 150ms) << "a pause is no slip";
 }
 
-// Its controller's answer to the last tick before a pause was late; what it sends while nobody waits isn't taken.
+// Its controller's answer to the last tick before a pause was late; what it sends while nobody waits isn't
+// taken.
 TEST_F(RealTime, takes_a_command_that_comes_in_a_pause_into_the_next_tick) {
   PlantOptions o = options(2);
   o.paused = true;

@@ -202,8 +202,8 @@ TEST(Datagrams, OfGarbageAreDroppedAndCountedAndChangeNothing) {
     const auto& datagram = garbage.next();
     ASSERT_TRUE(sender.send(datagram.bytes));
     expected.count(datagram);
-    // Who answers a later state has read what was sent before it: LCM never keeps more than this for a process
-    // that the machine holds up.
+    // Who answers a later state has read what was sent before it: LCM never keeps more than this for a
+    // process that the machine holds up.
     if (i % 100 == 0) {
       const std::int64_t before_these = rig.answered;
       ASSERT_TRUE(rig.until([&] { return rig.answered >= before_these + 3; }, 30s)) << "somebody hangs";
@@ -223,7 +223,8 @@ TEST(Datagrams, OfGarbageAreDroppedAndCountedAndChangeNothing) {
   EXPECT_EQ(rig.process(Part::plant).wait(), 0) << rig.process(Part::plant).err();
   const auto result = rig.process(Part::plant).json();
   EXPECT_EQ(result["trajectory_sha256"], simulated_hash(sets)) << "it went another way";
-  expect_counted(expected.of(Part::plant), counted(*rig.timing), lost_in_all);  // the result is of the path's end
+  expect_counted(expected.of(Part::plant), counted(*rig.timing),
+                 lost_in_all);  // the result is of the path's end
   for (const Part part : {Part::planner, Part::controller}) {
     SCOPED_TRACE(name_of(part));
     EXPECT_EQ(rig.process(part).wait(), 0);

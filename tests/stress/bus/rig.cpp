@@ -104,7 +104,8 @@ bool BusRig::runs_anew(std::int64_t old) {
            (command.flags & command_t::FLAG_SAFE) == 0 && !in_safe_state();
   };
   for (const Instant end = now() + kHang; now() < end; ++held_up) {
-    if (!until([&] { return state.session != old && (runs() || in_safe_state()); }, end - now())) return false;
+    if (!until([&] { return state.session != old && (runs() || in_safe_state()); }, end - now()))
+      return false;
     if (!in_safe_state()) return true;
     old = state.session;
     send_reset();
@@ -121,8 +122,8 @@ void BusRig::send_reset() {
 
 std::string BusRig::describe() {
   std::string text = fmt::format(
-      "STATE {} of {:x}, flags {}; COMMAND {} of {:x}, flags {}; {} sessions were held up so far\n", state.seq,
-      state.session, state.flags, command.seq, command.session, command.flags, held_up);
+      "STATE {} of {:x}, flags {}; COMMAND {} of {:x}, flags {}; {} sessions were held up so far\n",
+      state.seq, state.session, state.flags, command.seq, command.session, command.flags, held_up);
   for (const Part part : kParts) {
     Command& p = process(part);
     const std::string fate = p.running() ? "runs" : fmt::format("has ended with status {}", p.wait());

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "runtime/bus/bus.hpp"
-#include "runtime/clock/clock.hpp"
 #include "runtime/bus/wire.hpp"
+#include "runtime/clock/clock.hpp"
 #include "tests/support/command.hpp"
 
 namespace mixloop::stress {
