@@ -18,8 +18,8 @@ struct Options : CommonOptions {
 
 /// `1,2,3` or `57 deg, 0, 10 cm`; all zero when nothing was said.
 std::vector<double> state_values(const std::string& text, const std::string& option, const Scene& scene) {
-  if (text.empty()) return std::vector<double>(scene.motors.size(), 0.0);
-  return numbers_of(parse_document("[" + text + "]", option), kOpen, scene.motors.size(), option);
+  if (text.empty()) return std::vector<double>(scene.motors().size(), 0.0);
+  return numbers_of(parse_document("[" + text + "]", option), kOpen, scene.motors().size(), option);
 }
 
 template <class Derived>

@@ -12,7 +12,7 @@ Controller::Controller(Dynamics dynamics, ControllerSettings settings)
 void Controller::torque(std::span<const double> psi, std::span<const double> psid, const Reference& reference,
                         double t, std::span<double> tau) {
   const Law law = settings_.law;
-  const bool desired = settings_.feedforward_at == FeedforwardAt::kDesired;
+  const bool desired = settings_.feedforward_at == FeedforwardAt::desired;
   const std::span<const double> model_psi = desired ? span_of(reference.psi) : psi;
   const std::span<const double> model_psid = desired ? span_of(reference.psid) : psid;
   Eigen::Map<Vector> out(tau.data(), static_cast<Eigen::Index>(tau.size()));
@@ -20,12 +20,12 @@ void Controller::torque(std::span<const double> psi, std::span<const double> psi
   // (33) tau = Kp (Psi_d - Psi) + Kv (Psi'_d - Psi') + ...
   out = settings_.kp.cwiseProduct(reference.psi - map_of(psi)) +
         settings_.kv.cwiseProduct(reference.psid - map_of(psid));
-  if (law == Law::kPdFeedforward || law == Law::kComputedTorque) {
+  if (law == Law::pd_feedforward || law == Law::computed_torque) {
     dynamics_.mass_times(model_psi, span_of(reference.psidd), t, span_of(model_torque_));
     out += model_torque_;
   }
-  if (law == Law::kPdGravity || law == Law::kComputedTorque) {
-    dynamics_.bias(model_psi, law == Law::kPdGravity ? span_of(std::as_const(at_rest_)) : model_psid, t,
+  if (law == Law::pd_gravity || law == Law::computed_torque) {
+    dynamics_.bias(model_psi, law == Law::pd_gravity ? span_of(std::as_const(at_rest_)) : model_psid, t,
                    span_of(model_torque_));
     out += model_torque_;
   }

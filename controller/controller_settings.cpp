@@ -20,15 +20,15 @@ ControllerSettings read_controller_settings(const NodePtr& node, const Scene& sc
   const Mapping entry(node, "the controller",
                       {"law", "kp", "kv", "feedforward_at", "safety", "parameters", "scene"});
   ControllerSettings settings;
-  static constexpr Law kLaws[] = {Law::kPd, Law::kPdGravity, Law::kPdFeedforward, Law::kComputedTorque};
+  static constexpr Law kLaws[] = {Law::pd, Law::pd_gravity, Law::pd_feedforward, Law::computed_torque};
   settings.law =
       kLaws[word_of(*entry.at("law"), {"pd", "pd_gravity", "pd_feedforward", "computed_torque"}, "the law")];
   settings.kp = gains(entry, "kp", scene, kPure);
   settings.kv = gains(entry, "kv", scene, kTime);
   if (const NodePtr at = entry.find("feedforward_at"))
     settings.feedforward_at = word_of(*at, {"measured", "desired"}, "feedforward_at") == 0
-                                  ? FeedforwardAt::kMeasured
-                                  : FeedforwardAt::kDesired;
+                                  ? FeedforwardAt::measured
+                                  : FeedforwardAt::desired;
   if (const NodePtr safety = entry.find("safety")) settings.safety = read_safety_settings(safety, scene);
   return settings;
 }

@@ -9,18 +9,18 @@
 namespace mixloop {
 
 enum class Law {
-  kPd,              ///< tau = Kp e + Kv e'
-  kPdGravity,       ///< + h(Psi, 0): gravity and static loads
-  kPdFeedforward,   ///< + M(Psi) Psi''_d, the paper's (33)
-  kComputedTorque,  ///< + M(Psi) Psi''_d + h(Psi, Psi')
+  pd,               ///< tau = Kp e + Kv e'
+  pd_gravity,       ///< + h(Psi, 0): gravity and static loads
+  pd_feedforward,   ///< + M(Psi) Psi''_d, the paper's (33)
+  computed_torque,  ///< + M(Psi) Psi''_d + h(Psi, Psi')
 };
 
 /// Where the model is evaluated: at the measured state, or at the desired one.
-enum class FeedforwardAt { kMeasured, kDesired };
+enum class FeedforwardAt { measured, desired };
 
 struct ControllerSettings {
-  Law law = Law::kPdFeedforward;
-  FeedforwardAt feedforward_at = FeedforwardAt::kMeasured;
+  Law law = Law::pd_feedforward;
+  FeedforwardAt feedforward_at = FeedforwardAt::measured;
   Vector kp, kv;  ///< n: the diagonals of Kp (N m/rad) and Kv (N m s/rad)
   SafetySettings safety;
 };

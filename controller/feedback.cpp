@@ -30,18 +30,18 @@ Feedback feedback(const ControllerSettings& settings, Dynamics& model, const Ref
   Feedback result{Matrix::Zero(n, 2 * n), Matrix::Zero(n, 2 * n)};
   result.proportional.leftCols(n) = -Matrix(settings.kp.asDiagonal());
   result.proportional.rightCols(n) = -Matrix(settings.kv.asDiagonal());
-  if (settings.feedforward_at == FeedforwardAt::kDesired) return result;
+  if (settings.feedforward_at == FeedforwardAt::desired) return result;
   switch (settings.law) {
-    case Law::kPd:
+    case Law::pd:
       break;
-    case Law::kPdGravity:  // h(psi, 0)
+    case Law::pd_gravity:  // h(psi, 0)
       result.model.leftCols(n) = inverse_dynamics_slope(model, psi, zero, zero, t).by_psi;
       break;
-    case Law::kPdFeedforward:  // M(psi) psidd_d, the difference of two inverse dynamics
+    case Law::pd_feedforward:  // M(psi) psidd_d, the difference of two inverse dynamics
       result.model.leftCols(n) = inverse_dynamics_slope(model, psi, zero, psidd, t).by_psi -
                                  inverse_dynamics_slope(model, psi, zero, zero, t).by_psi;
       break;
-    case Law::kComputedTorque: {
+    case Law::computed_torque: {
       const auto slope = inverse_dynamics_slope(model, psi, psid, psidd, t);
       result.model << slope.by_psi, slope.by_psid;
       break;

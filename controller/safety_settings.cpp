@@ -22,7 +22,7 @@ std::vector<double> limits(const Mapping& entry, const char* key, const Scene& s
 std::vector<std::array<double, 2>> read_range(const NodePtr& node, const Scene& scene) {
   std::vector<std::array<double, 2>> range;
   const auto pairs = items_of(node, "the position range, [least, most] a motor");
-  if (pairs.size() != scene.motors.size())
+  if (pairs.size() != scene.motors().size())
     throw InputError("wrong_size", node->place,
                      "the position range has " + std::to_string(pairs.size()) +
                          " pairs; expected one for each of the " + std::to_string(scene.n()) + " motors");
@@ -30,7 +30,7 @@ std::vector<std::array<double, 2>> read_range(const NodePtr& node, const Scene& 
     const auto ends = items_of(pairs[i], "a motor's range");
     if (ends.size() != 2)
       throw InputError("wrong_size", pairs[i]->place, "a motor's range has two ends, [least, most]");
-    const Dimension& unit = scene.motors[i].linear ? kLength : kPure;
+    const Dimension& unit = scene.motors()[i].linear ? kLength : kPure;
     range.push_back({number_of(*ends[0], unit, "the least position"), number_of(*ends[1], unit, "the most")});
     if (!(range.back()[0] < range.back()[1]))
       throw InputError("out_of_range", pairs[i]->place, "the range is empty; expected [least, most]");

@@ -44,13 +44,13 @@ Expectation read_expectation(const NodePtr& node, const Scene& scene) {
   }
   if (const NodePtr torque = entry.find("max_torque")) {
     const auto items = items_of(torque, "max_torque");
-    if (items.size() != scene.motors.size())
+    if (items.size() != scene.motors().size())
       throw InputError("wrong_size", torque->place,
                        fmt::format("max_torque has {} values; expected {}", items.size(), scene.n()));
     for (std::size_t i = 0; i < items.size(); ++i)
       expectation.bounds.push_back(
           {"max_torque", static_cast<int>(i), 0.0,
-           number_of(*items[i], scene.motors[i].linear ? kForce : kMoment, "max_torque")});
+           number_of(*items[i], scene.motors()[i].linear ? kForce : kMoment, "max_torque")});
   }
   if (const NodePtr diverges = entry.find("diverges")) expectation.diverges = flag_of(*diverges, "diverges");
   if (const NodePtr safe = entry.find("safe_state")) expectation.safe_state = flag_of(*safe, "safe_state");

@@ -7,16 +7,16 @@ namespace mixloop {
 
 nlohmann::ordered_json json_of(const Node& node) {
   switch (node.kind) {
-    case Node::Kind::kEmpty:
+    case Node::Kind::empty:
       return nullptr;
-    case Node::Kind::kScalar:
+    case Node::Kind::scalar:
       return node.text;
-    case Node::Kind::kSequence: {
+    case Node::Kind::sequence: {
       auto list = nlohmann::ordered_json::array();
       for (const auto& item : node.items) list.push_back(json_of(*item));
       return list;
     }
-    case Node::Kind::kMapping:
+    case Node::Kind::mapping:
       break;
   }
   auto mapping = nlohmann::ordered_json::object();

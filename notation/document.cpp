@@ -12,13 +12,13 @@ namespace mixloop {
 
 std::string describe(const Node& node) {
   switch (node.kind) {
-    case Node::Kind::kEmpty:
+    case Node::Kind::empty:
       return "nothing";
-    case Node::Kind::kScalar:
+    case Node::Kind::scalar:
       return in_quotes(node.text);
-    case Node::Kind::kSequence:
+    case Node::Kind::sequence:
       return fmt::format("a list of {}", node.items.size());
-    case Node::Kind::kMapping:
+    case Node::Kind::mapping:
       return "a mapping";
   }
   return "";
@@ -38,14 +38,14 @@ Place place_in(const Node& scalar, std::size_t offset) {
 }
 
 const std::string& text_of(const Node& node, const std::string& what) {
-  if (node.kind != Node::Kind::kScalar)
+  if (node.kind != Node::Kind::scalar)
     throw InputError("wrong_kind", node.place, "found " + describe(node) + "; expected " + what);
   return node.text;
 }
 
 std::vector<NodePtr> items_of(const NodePtr& node, const std::string& what) {
-  if (node->kind == Node::Kind::kScalar) return {node};
-  if (node->kind != Node::Kind::kSequence)
+  if (node->kind == Node::Kind::scalar) return {node};
+  if (node->kind != Node::Kind::sequence)
     throw InputError("wrong_kind", node->place, "found " + describe(*node) + "; expected a list: " + what);
   return node->items;
 }
@@ -62,7 +62,7 @@ bool flag_of(const Node& node, const std::string& what) {
 
 Mapping::Mapping(NodePtr node, std::string what, std::vector<std::string> known)
     : node_(std::move(node)), what_(std::move(what)) {
-  if (node_->kind != Node::Kind::kMapping)
+  if (node_->kind != Node::Kind::mapping)
     throw InputError("wrong_kind", node_->place,
                      "found " + describe(*node_) + "; expected " + what_ + " as a mapping");
   for (const auto& entry : node_->entries)

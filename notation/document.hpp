@@ -18,7 +18,7 @@ using NodePtr = std::shared_ptr<const Node>;
 
 /// One value of a YAML document, with its place. Scalars stay text until somebody knows what they mean.
 struct Node {
-  enum class Kind { kEmpty, kScalar, kSequence, kMapping };
+  enum class Kind { empty, scalar, sequence, mapping };
   struct Entry {
     std::string key;
     Place place;
@@ -31,12 +31,12 @@ struct Node {
     int column = 0;
   };
 
-  Kind kind = Kind::kEmpty;
+  Kind kind = Kind::empty;
   Place place;
-  std::string text;            ///< kScalar
-  std::vector<Piece> pieces;   ///< kScalar: where quotes or line breaks part the text from `place`
-  std::vector<NodePtr> items;  ///< kSequence
-  std::vector<Entry> entries;  ///< kMapping, in the order of the file, keys unique
+  std::string text;            ///< scalar
+  std::vector<Piece> pieces;   ///< scalar: where quotes or line breaks part the text from `place`
+  std::vector<NodePtr> items;  ///< sequence
+  std::vector<Entry> entries;  ///< mapping, in the order of the file, keys unique
 };
 
 /// What the node is, for messages: "'abc'", "a list of 3", "a mapping", "nothing".

@@ -14,7 +14,7 @@ namespace mixloop {
 using Op = Formula::Operator;
 
 Formula constant_formula(double value, const Dimension& dimension, const Place& place) {
-  return {{{.op = Op::kConstant, .value = value}}, dimension, place};
+  return {{{.op = Op::constant, .value = value}}, dimension, place};
 }
 
 void check_name(const std::string& name, const Place& place) {
@@ -44,7 +44,7 @@ void Scope::define(const std::string& name, Meaning meaning) {
 
 void Scope::define_symbol(const std::string& name, int symbol, const Dimension& dimension,
                           const Place& place) {
-  define(name, {symbol, {{{.op = Op::kSymbol, .symbol = symbol}}, dimension, place}, place});
+  define(name, {symbol, {{{.op = Op::symbol, .symbol = symbol}}, dimension, place}, place});
 }
 
 void Scope::define_formula(const std::string& name, Formula formula, const Place& place) {
@@ -97,26 +97,26 @@ int degree(const Formula& formula, const std::function<bool(int)>& chosen) {
     const int right = node.right >= 0 ? degrees[static_cast<std::size_t>(node.right)] : 0;
     int result = 2;
     switch (node.op) {
-      case Op::kConstant:
+      case Op::constant:
         result = 0;
         break;
-      case Op::kSymbol:
+      case Op::symbol:
         result = chosen(node.symbol) ? 1 : 0;
         break;
-      case Op::kAdd:
-      case Op::kSubtract:
+      case Op::add:
+      case Op::subtract:
         result = std::max(left, right);
         break;
-      case Op::kNegate:
+      case Op::negate:
         result = left;
         break;
-      case Op::kMultiply:
+      case Op::multiply:
         result = std::min(2, left + right);
         break;
-      case Op::kDivide:
+      case Op::divide:
         result = right == 0 ? left : 2;
         break;
-      case Op::kPower:
+      case Op::power:
         result = left == 0 || node.exponent == 0 ? 0 : (node.exponent == 1 ? left : 2);
         break;
       default:

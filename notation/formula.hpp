@@ -20,32 +20,32 @@ struct Node;
 /// nodes and 256 levels, so that an evaluation may recurse.
 struct Formula {
   enum class Operator {
-    kConstant,
-    kSymbol,
-    kAdd,
-    kSubtract,
-    kMultiply,
-    kDivide,
-    kNegate,
-    kPower,
-    kSin,
-    kCos,
-    kTan,
-    kAsin,
-    kAcos,
-    kAtan,
-    kAtan2,
-    kSqrt,
-    kExp,
-    kLog
+    constant,
+    symbol,
+    add,
+    subtract,
+    multiply,
+    divide,
+    negate,
+    power,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    atan2,
+    sqrt,
+    exp,
+    log
   };
   struct Node {
-    Operator op = Operator::kConstant;
+    Operator op = Operator::constant;
     int left = -1;     ///< index of the (first) operand
     int right = -1;    ///< index of the second operand
-    double value = 0;  ///< kConstant
-    int symbol = -1;   ///< kSymbol: the number that the scope gave it
-    int exponent = 0;  ///< kPower: a whole number
+    double value = 0;  ///< constant
+    int symbol = -1;   ///< symbol: the number that the scope gave it
+    int exponent = 0;  ///< power: a whole number
   };
 
   std::vector<Node> nodes;
@@ -53,7 +53,7 @@ struct Formula {
   Place place;
   int height = 1;  ///< levels of the tree
 
-  bool is_constant() const { return nodes.size() == 1 && nodes[0].op == Operator::kConstant; }
+  bool is_constant() const { return nodes.size() == 1 && nodes[0].op == Operator::constant; }
   bool is_zero() const { return is_constant() && nodes[0].value == 0; }
   /// Only where is_constant().
   double constant() const { return nodes[0].value; }
@@ -121,47 +121,47 @@ T evaluate_node(const Formula& formula, int index, const Lookup& symbol) {
   const auto left = [&] { return evaluate_node<T>(formula, node.left, symbol); };
   const auto right = [&] { return evaluate_node<T>(formula, node.right, symbol); };
   switch (node.op) {
-    case Op::kConstant:
+    case Op::constant:
       return T(node.value);
-    case Op::kSymbol:
+    case Op::symbol:
       return symbol(node.symbol);
-    case Op::kAdd:
+    case Op::add:
       return left() + right();
-    case Op::kSubtract:
+    case Op::subtract:
       return left() - right();
-    case Op::kMultiply:
+    case Op::multiply:
       return left() * right();
-    case Op::kDivide:
+    case Op::divide:
       return left() / right();
-    case Op::kNegate:
+    case Op::negate:
       return -left();
-    case Op::kPower:
+    case Op::power:
       return whole_power(left(), node.exponent);
-    case Op::kSin:
+    case Op::sin:
       return sin(left());
-    case Op::kCos:
+    case Op::cos:
       return cos(left());
-    case Op::kTan: {
+    case Op::tan: {
       const T x = left();
       return sin(x) / cos(x);
     }
-    case Op::kAsin: {
+    case Op::asin: {
       const T x = left();
       return atan2(x, sqrt((T(1) - x) * (T(1) + x)));
     }
-    case Op::kAcos: {
+    case Op::acos: {
       const T x = left();
       return atan2(sqrt((T(1) - x) * (T(1) + x)), x);
     }
-    case Op::kAtan:
+    case Op::atan:
       return atan2(left(), T(1));
-    case Op::kAtan2:
+    case Op::atan2:
       return atan2(left(), right());
-    case Op::kSqrt:
+    case Op::sqrt:
       return sqrt(left());
-    case Op::kExp:
+    case Op::exp:
       return exp(left());
-    case Op::kLog:
+    case Op::log:
       return log(left());
   }
   return T(0);

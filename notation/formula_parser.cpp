@@ -21,12 +21,11 @@ constexpr int kHighest = 256;
 constexpr std::size_t kMostNodes = 4096;
 constexpr int kLargestPower = 1000;
 
-constexpr std::array kFunctions = {
-    NamedFunction{"sin", Op::kSin, 1},   NamedFunction{"cos", Op::kCos, 1},
-    NamedFunction{"tan", Op::kTan, 1},   NamedFunction{"asin", Op::kAsin, 1},
-    NamedFunction{"acos", Op::kAcos, 1}, NamedFunction{"atan", Op::kAtan, 1},
-    NamedFunction{"sqrt", Op::kSqrt, 1}, NamedFunction{"exp", Op::kExp, 1},
-    NamedFunction{"log", Op::kLog, 1},   NamedFunction{"atan2", Op::kAtan2, 2}};
+constexpr std::array kFunctions = {NamedFunction{"sin", Op::sin, 1},   NamedFunction{"cos", Op::cos, 1},
+                                   NamedFunction{"tan", Op::tan, 1},   NamedFunction{"asin", Op::asin, 1},
+                                   NamedFunction{"acos", Op::acos, 1}, NamedFunction{"atan", Op::atan, 1},
+                                   NamedFunction{"sqrt", Op::sqrt, 1}, NamedFunction{"exp", Op::exp, 1},
+                                   NamedFunction{"log", Op::log, 1},   NamedFunction{"atan2", Op::atan2, 2}};
 
 /// nan, inf or infinity, with or without YAML's dot, in any case.
 bool is_not_finite(std::string_view word) {
@@ -99,9 +98,9 @@ class Parser {
       skip_space();
       const std::size_t at = at_;
       if (take('+'))
-        value = joined(Op::kAdd, std::move(value), product(), at);
+        value = joined(Op::add, std::move(value), product(), at);
       else if (take('-'))
-        value = joined(Op::kSubtract, std::move(value), product(), at);
+        value = joined(Op::subtract, std::move(value), product(), at);
       else
         return value;
     }
@@ -113,9 +112,9 @@ class Parser {
       skip_space();
       const std::size_t at = at_;
       if (take('*'))
-        value = joined(Op::kMultiply, std::move(value), sign(), at);
+        value = joined(Op::multiply, std::move(value), sign(), at);
       else if (take('/'))
-        value = joined(Op::kDivide, std::move(value), sign(), at);
+        value = joined(Op::divide, std::move(value), sign(), at);
       else
         return value;
     }
@@ -124,7 +123,7 @@ class Parser {
   Formula sign() {
     const Nesting nesting(*this);
     const std::size_t at = at_;
-    if (take('-')) return applied(Op::kNegate, sign(), at);
+    if (take('-')) return applied(Op::negate, sign(), at);
     if (take('+')) return sign();
     return power_of(primary());
   }
@@ -173,7 +172,7 @@ class Parser {
         fail("unknown_unit", unit_at,
              fmt::format("unknown unit {}{}", in_quotes(name), suggestion(name, unit_names())));
       at_ += name.size();
-      result = joined(Op::kMultiply, std::move(result),
+      result = joined(Op::multiply, std::move(result),
                       power_of(constant_formula(unit->factor, unit->dimension)), unit_at);
       if (at_ + 1 < text_.size() && text_[at_] == '.' && starts_name(text_[at_ + 1])) ++at_;  // kg.m^2
     }
@@ -222,7 +221,7 @@ class Parser {
   }
 
   Formula joined(Op op, Formula left, const Formula& right, std::size_t at) const {
-    if (op == Op::kDivide && right.is_zero()) fail("not_finite", at, "a division by zero");
+    if (op == Op::divide && right.is_zero()) fail("not_finite", at, "a division by zero");
     const Dimension dimension = joint_dimension(op, left.dimension, right.dimension, at);
     const bool constant = left.is_constant() && right.is_constant();
     const int left_root = static_cast<int>(left.nodes.size()) - 1;
@@ -243,8 +242,8 @@ class Parser {
     const Dimension dimension = power(base.dimension, exponent);
     const bool constant = base.is_constant();
     const int root = static_cast<int>(base.nodes.size()) - 1;
-    return rooted(std::move(base), {.op = Op::kPower, .left = root, .exponent = exponent}, dimension,
-                  constant, at);
+    return rooted(std::move(base), {.op = Op::power, .left = root, .exponent = exponent}, dimension, constant,
+                  at);
   }
 
   /// `operands` under a new root, folded where they are constant.
@@ -269,19 +268,19 @@ class Parser {
   }
 
   Dimension joint_dimension(Op op, const Dimension& a, const Dimension& b, std::size_t at) const {
-    if (op == Op::kMultiply) return a * b;
-    if (op == Op::kDivide) return a / b;
+    if (op == Op::multiply) return a * b;
+    if (op == Op::divide) return a / b;
     const auto sum = sum_dimension(a, b);
     if (!sum)
       fail("wrong_dimension", at,
            fmt::format("{} and {} cannot be {}", to_string(a), to_string(b),
-                       op == Op::kAtan2 ? "the two sides of one angle" : "added or subtracted"));
-    return op == Op::kAtan2 ? kPure : *sum;
+                       op == Op::atan2 ? "the two sides of one angle" : "added or subtracted"));
+    return op == Op::atan2 ? kPure : *sum;
   }
 
   Dimension operand_dimension(Op op, const Dimension& a, std::size_t at) const {
-    if (op == Op::kNegate) return a;
-    if (op == Op::kSqrt) {
+    if (op == Op::negate) return a;
+    if (op == Op::sqrt) {
       if (a.length2 % 2 != 0 || a.mass2 % 2 != 0 || a.time2 % 2 != 0)
         fail("wrong_dimension", at, "the square root of " + to_string(a));
       return {a.length2 / 2, a.mass2 / 2, a.time2 / 2, a.open};

@@ -69,14 +69,14 @@ NodePtr replaced(const NodePtr& node, std::span<const Step> steps, const NodePtr
   const Step& step = steps.front();
   auto copy = node ? std::make_shared<Node>(*node) : std::make_shared<Node>();
   if (step.is_index) {
-    if (copy->kind != Node::Kind::kSequence || step.index >= copy->items.size())
+    if (copy->kind != Node::Kind::sequence || step.index >= copy->items.size())
       throw InputError("invalid_path", place,
                        fmt::format("no item [{}] there: it is {}", step.index, describe(*copy)));
     copy->items[step.index] = replaced(copy->items[step.index], steps.subspan(1), value, place);
     return copy;
   }
-  if (copy->kind == Node::Kind::kEmpty) copy->kind = Node::Kind::kMapping, copy->place = place;
-  if (copy->kind != Node::Kind::kMapping)
+  if (copy->kind == Node::Kind::empty) copy->kind = Node::Kind::mapping, copy->place = place;
+  if (copy->kind != Node::Kind::mapping)
     throw InputError("invalid_path", place,
                      "no entry " + in_quotes(step.key) + " there: it is " + describe(*copy));
   for (auto& entry : copy->entries)

@@ -88,7 +88,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    finish(made(Node::Kind::kEmpty, mark), anchor, 1);
+    finish(made(Node::Kind::empty, mark), anchor, 1);
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -100,7 +100,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
-    auto node = made(value.empty() && tag != "!" ? Node::Kind::kEmpty : Node::Kind::kScalar, mark);
+    auto node = made(value.empty() && tag != "!" ? Node::Kind::empty : Node::Kind::scalar, mark);
     if (first_non_text(value))
       throw InputError("not_text", node->place, "an escape that makes a control character; expected text");
     node->text = value;
@@ -110,11 +110,11 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
-    open(made(Node::Kind::kSequence, mark), anchor);
+    open(made(Node::Kind::sequence, mark), anchor);
   }
   void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value) override {
-    open(made(Node::Kind::kMapping, mark), anchor);
+    open(made(Node::Kind::mapping, mark), anchor);
   }
   void OnSequenceEnd() override { close(); }
   void OnMapEnd() override { close(); }
@@ -174,7 +174,7 @@ class TreeBuilder final : public YAML::EventHandler {
     if (parent.size > kMostValues)
       throw InputError("too_large", at,
                        fmt::format("more than {} values once aliases are followed", kMostValues));
-    if (parent.node->kind == Node::Kind::kSequence) {
+    if (parent.node->kind == Node::Kind::sequence) {
       parent.node->items.push_back(std::move(node));
     } else if (!parent.has_key) {
       take_key(parent, *node, at);
@@ -185,7 +185,7 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   static void take_key(Open& parent, const Node& key, const Place& at) {
-    if (key.kind != Node::Kind::kScalar)
+    if (key.kind != Node::Kind::scalar)
       throw InputError("wrong_kind", at, "a key is " + describe(key) + "; expected a name");
     if (const auto [known, is_new] = parent.lines.emplace(key.text, at.line); !is_new)
       throw InputError(
@@ -233,7 +233,7 @@ NodePtr parse_document(std::string_view text, const std::string& file) {
     YAML::Parser parser(stream);
     parser.HandleNextDocument(builder);
     const NodePtr root = builder.root();
-    if (!root || root->kind == Node::Kind::kEmpty)
+    if (!root || root->kind == Node::Kind::empty)
       throw InputError("empty_file", {file}, "found nothing; expected YAML");
     if (parser.HandleNextDocument(builder))
       throw InputError("invalid_yaml", builder.root()->place, "found a second document; expected one");

@@ -6,14 +6,14 @@ namespace mixloop {
 IkOutcome Follower::start(const InverseKinematics::Accepts& accepts) {
   const PathPoint desired = itinerary_.at(0);
   const IkOutcome outcome = ik_.position_from_home(desired.position, time(0), now_.motors.psi, accepts);
-  return outcome == IkOutcome::kSolved ? complete(0, desired, now_.motors.psi) : outcome;
+  return outcome == IkOutcome::solved ? complete(0, desired, now_.motors.psi) : outcome;
 }
 
 IkOutcome Follower::complete(double step, const PathPoint& desired, Vector psi) {
   Motion next{step, desired, {std::move(psi), {}, {}}};
   const IkOutcome outcome =
       ik_.rates(desired, time(step), next.motors.psi, next.motors.psid, next.motors.psidd);
-  if (outcome == IkOutcome::kSolved) now_ = std::move(next);
+  if (outcome == IkOutcome::solved) now_ = std::move(next);
   return outcome;
 }
 
@@ -31,13 +31,13 @@ IkOutcome Follower::try_advance(double step, int halvings) {
   const IkOutcome outcome = ik_.position(desired.position, time(step), psi);
   const auto size = [&](const Vector& move) { return move.cwiseQuotient(ik_.motor_scale()).norm(); };
   const double move = size(psi - from);
-  const bool far = outcome != IkOutcome::kSolved || move > 0.3 || size(psi - expected) > 0.1 * move + 1e-3;
+  const bool far = outcome != IkOutcome::solved || move > 0.3 || size(psi - expected) > 0.1 * move + 1e-3;
   if (far && halvings > 0) {
     const IkOutcome half = try_advance((now_.step + step) / 2, halvings - 1);
-    return half == IkOutcome::kSolved ? try_advance(step, halvings - 1) : half;
+    return half == IkOutcome::solved ? try_advance(step, halvings - 1) : half;
   }
-  if (outcome != IkOutcome::kSolved) return outcome;
-  return ik_.arm() || !far ? complete(step, desired, psi) : IkOutcome::kSingular;
+  if (outcome != IkOutcome::solved) return outcome;
+  return ik_.arm() || !far ? complete(step, desired, psi) : IkOutcome::singular;
 }
 
 double Follower::limit(double failed) {
@@ -45,7 +45,7 @@ double Follower::limit(double failed) {
   while (reached < failed) {
     const double middle = (reached + failed) / 2;
     if (middle <= reached || middle >= failed) break;
-    (advance(middle) == IkOutcome::kSolved ? reached : failed) = middle;
+    (advance(middle) == IkOutcome::solved ? reached : failed) = middle;
   }
   return failed;
 }

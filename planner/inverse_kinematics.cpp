@@ -60,7 +60,7 @@ InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
                      fmt::format("the scene '{}' has {} motors for {} axes of its end effector; a path needs "
                                  "as many motors as axes",
                                  model.scene->name, model.n(), axes));
-  if (method == Method::kClosedFormIfKnown) arm_ = find_three_axis_arm(model);
+  if (method == Method::closed_form_if_known) arm_ = find_three_axis_arm(model);
   const Eigen::Matrix3d J = jacobian_of(forward(home_, zero_, zero_, 0));
   motor_scale_ = Vector::Ones(model.n());
   for (int i = 0; i < model.n(); ++i)
@@ -70,12 +70,12 @@ InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
 IkOutcome InverseKinematics::closed_form(const Eigen::Vector3d& point, Vector& psi) const {
   const ArmReach reach = reach_of(*arm_, point);
   if (!(reach.beside >= 0 && reach.distance >= arm_->nearest() && reach.distance <= arm_->farthest()))
-    return IkOutcome::kOutOfReach;
+    return IkOutcome::out_of_reach;
   const auto angles = arm_angles<double>(*arm_, {point[0], point[1], point[2]});
   const Eigen::Vector3d before = arm_->angles(psi);
   psi = arm_->motors(
       {unwrapped(angles[0], before[0]), unwrapped(angles[1], before[1]), unwrapped(angles[2], before[2])});
-  return psi.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
+  return psi.allFinite() ? IkOutcome::solved : IkOutcome::singular;
 }
 
 // The closed form on Taylor series in time: its rates are exact.
@@ -87,7 +87,7 @@ IkOutcome InverseKinematics::closed_form_rates(const PathPoint& point, Vector& p
   const auto [base, shoulder, elbow] = arm_angles<Series>(*arm_, {along(0), along(1), along(2)});
   psid = arm_->B_inverse * Eigen::Vector3d(base.d, shoulder.d, elbow.d);
   psidd = arm_->B_inverse * Eigen::Vector3d(base.dd, shoulder.dd, elbow.dd);
-  return psid.allFinite() && psidd.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
+  return psid.allFinite() && psidd.allFinite() ? IkOutcome::solved : IkOutcome::singular;
 }
 
 Eigen::Vector3d InverseKinematics::on_axes(const Eigen::Vector3d& x) const {
@@ -131,7 +131,7 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
     // small distance may take a long one): this step ends it.
     if (sound && damping == 0 && distance <= 1e-10 * scale_ && length <= 1e-8) {
       psi = trial;
-      return IkOutcome::kSolved;
+      return IkOutcome::solved;
     }
     if (sound) state = &forward(trial, zero_, zero_, t);
     if (const Eigen::Vector3d left = on_axes(point - state->position); sound && left.norm() < distance) {
@@ -144,7 +144,7 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
       if (damping > 1e12) break;
     }
   }
-  return error.norm() <= 1e-12 * scale_ ? IkOutcome::kSolved : IkOutcome::kOutOfReach;
+  return error.norm() <= 1e-12 * scale_ ? IkOutcome::solved : IkOutcome::out_of_reach;
 }
 
 IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, double t, Vector& psi,
@@ -167,7 +167,7 @@ IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, do
       found[i] += spread * motor_scale_[i] *
                   (2 * std::fmod(0.5 + start * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0) - 1);
     if (start > 0 && !on_home_side(found)) continue;
-    if (position(point, t, found) != IkOutcome::kSolved) {
+    if (position(point, t, found) != IkOutcome::solved) {
       const double missed = miss(point, t, found);
       if (nearest == HUGE_VAL && !found_other && missed < least_miss) psi = found;
       least_miss = std::min(least_miss, missed);
@@ -178,8 +178,8 @@ IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, do
       psi = found;
     }
   }
-  if (nearest < HUGE_VAL) return IkOutcome::kSolved;
-  return found_other ? IkOutcome::kOtherBranch : IkOutcome::kOutOfReach;
+  if (nearest < HUGE_VAL) return IkOutcome::solved;
+  return found_other ? IkOutcome::other_branch : IkOutcome::out_of_reach;
 }
 
 IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vector& psi, Vector& psid,
@@ -188,10 +188,10 @@ IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vecto
   const EndEffectorState<double>& drift = forward(psi, zero_, zero_, t);
   const Eigen::PartialPivLU<Eigen::Matrix3d> J(jacobian_of(drift));
   psid = first_of(J.solve(on_axes(point.velocity - drift.velocity)), model_.n());
-  if (!psid.allFinite()) return IkOutcome::kSingular;
+  if (!psid.allFinite()) return IkOutcome::singular;
   psidd =
       first_of(J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)), model_.n());
-  return psidd.allFinite() ? IkOutcome::kSolved : IkOutcome::kSingular;
+  return psidd.allFinite() ? IkOutcome::solved : IkOutcome::singular;
 }
 
 }  // namespace mixloop

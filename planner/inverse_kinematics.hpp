@@ -12,10 +12,10 @@ namespace mixloop {
 
 /// What became of a search for the motors' motion. What is expected to happen is no exception.
 enum class IkOutcome {
-  kSolved,
-  kOutOfReach,   ///< the closed form has no solution; or the search ended at a nearest point that is none
-  kOtherBranch,  ///< the search from home found solutions on other branches only
-  kSingular,     ///< the Jacobian has no inverse there, to round-off
+  solved,
+  out_of_reach,  ///< the closed form has no solution; or the search ended at a nearest point that is none
+  other_branch,  ///< the search from home found solutions on other branches only
+  singular,      ///< the Jacobian has no inverse there, to round-off
 };
 
 /// From a desired motion of the end effector to that of the motors, for a scene with as many motors as its
@@ -23,11 +23,11 @@ enum class IkOutcome {
 /// exact Jacobian, damped where it has to be. The branch is the one of the scene's home.
 class InverseKinematics {
  public:
-  enum class Method { kClosedFormIfKnown, kNewton };
+  enum class Method { closed_form_if_known, newton };
   using Accepts = std::function<bool(const Vector& psi)>;
 
   /// Throws InputError("no_inverse") unless n is the number of the end effector's axes. Refers to `model`.
-  explicit InverseKinematics(const Model<double>& model, Method method = Method::kClosedFormIfKnown);
+  explicit InverseKinematics(const Model<double>& model, Method method = Method::closed_form_if_known);
 
   /// The arm whose closed form is used, or nothing.
   const std::optional<ThreeAxisArm>& arm() const { return arm_; }

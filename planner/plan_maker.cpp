@@ -100,12 +100,12 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   Follower follower(ik_, itinerary_, delay);
   const double t_start = follower.time(0);
   const auto on_branch = [&](const Vector& psi) { return measures_.on_home_branch(psi, t_start); };
-  if (const IkOutcome outcome = follower.start(on_branch); outcome != IkOutcome::kSolved)
+  if (const IkOutcome outcome = follower.start(on_branch); outcome != IkOutcome::solved)
     refusal_.no_start(outcome, follower.now().motors.psi, t_start);
   measures_.adopt_scale(follower.now().motors.psi, t_start);
   for (std::int64_t step = 0; step <= steps; ++step) {
     const auto at = static_cast<double>(step);
-    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::kSolved)
+    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::solved)
       refusal_.no_way(outcome, follower, at);
     const double t = follower.time(at);
     write(follower.now(), t, row(plan, step * width_));
@@ -121,7 +121,7 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
 void PlanMaker::follow_within(Plan& plan, std::int64_t step, Follower& follower) {
   for (std::int64_t j = 1; j < width_; ++j) {
     const double at = static_cast<double>(step) + settings_.within[static_cast<std::size_t>(j)];
-    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::kSolved)
+    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::solved)
       refusal_.no_way(outcome, follower, at);
     write(follower.now(), follower.time(at), row(plan, step * width_ + j));
   }
@@ -133,7 +133,7 @@ void PlanMaker::check_singularities(Plan& plan, std::int64_t delay) {
     const std::int64_t before = std::llround(std::floor(step));
     const Reference known = reference_in(row(plan, before * width_), plan.n_);
     follower.resume({static_cast<double>(before), {}, {known.psi, known.psid, known.psidd}});
-    if (follower.advance(step) == IkOutcome::kSolved)
+    if (follower.advance(step) == IkOutcome::solved)
       return measures_.evaluate(follower.now().motors.psi, follower.time(step), values);
     std::fill_n(values, measures_.count(), 0.0);  // no solution between two solutions: a singularity
   };
@@ -171,7 +171,7 @@ Vector PlanMaker::fastest_on_path(Plan& plan) const {
   Vector each = Vector::Zero(plan.n_), fastest = each;
   for (std::int64_t step = 0; step < lap_steps_; ++step)
     each = each.cwiseMax(reference_in(row(plan, step * width_), plan.n_).psid.cwiseAbs());
-  const auto linear = [&](int i) { return model_.scene->motors[static_cast<std::size_t>(i)].linear; };
+  const auto linear = [&](int i) { return model_.scene->motors()[static_cast<std::size_t>(i)].linear; };
   for (int i = 0; i < plan.n_; ++i)
     for (int j = 0; j < plan.n_; ++j)
       if (linear(i) == linear(j)) fastest[i] = std::max(fastest[i], each[j]);

@@ -57,10 +57,10 @@ void Refusal::singular(double step, const Vector& last, double t) const {
 
 void Refusal::no_start(IkOutcome outcome, const Vector& nearest, double t) const {
   const std::string start = "the path's start, " + itinerary_.describe(0) + ", ";
-  if (outcome == IkOutcome::kOtherBranch)
+  if (outcome == IkOutcome::other_branch)
     throw InputError("crosses_branch", path_.vias[0].place,
                      start + "can be reached only on another branch than home's");
-  if (outcome == IkOutcome::kSingular) singular(0, nearest, t);
+  if (outcome == IkOutcome::singular) singular(0, nearest, t);
   throw InputError("unreachable", path_.vias[0].place,
                    start + "is out of reach: " + reach_text(0, t, nearest));
 }
@@ -68,7 +68,7 @@ void Refusal::no_start(IkOutcome outcome, const Vector& nearest, double t) const
 void Refusal::no_way(IkOutcome outcome, Follower& follower, double step) const {
   const double end = follower.limit(step);
   const Vector last = follower.now().motors.psi;
-  if (outcome == IkOutcome::kSingular) singular(end, last, follower.time(end));
+  if (outcome == IkOutcome::singular) singular(end, last, follower.time(end));
   double farthest = step, most = 0;
   for (int i = 0; i <= 256; ++i) {
     const double at = step + (static_cast<double>(itinerary_.lap_steps()) - step) * i / 256;
@@ -85,8 +85,7 @@ void Refusal::no_way(IkOutcome outcome, Follower& follower, double step) const {
 /// How far the point of a step is out of reach, m; 0 within it. `nearby`: motors to start a search from.
 double Refusal::out_of_reach(double step, double t, Vector nearby) const {
   const Eigen::Vector3d point = itinerary_.at(step).position;
-  if (!ik_.arm())
-    return ik_.position(point, t, nearby) == IkOutcome::kSolved ? 0 : ik_.miss(point, t, nearby);
+  if (!ik_.arm()) return ik_.position(point, t, nearby) == IkOutcome::solved ? 0 : ik_.miss(point, t, nearby);
   const ThreeAxisArm& arm = *ik_.arm();
   const ArmReach reach = reach_of(arm, point);
   if (reach.beside < 0) return std::abs(arm.lateral) - point.head<2>().norm();

@@ -31,7 +31,7 @@ std::vector<bool> affine_coordinates(const Scene& scene) {
     return symbol == Symbols::kTime || symbols.is_psi(symbol) || symbols.is_q(symbol);
   };
   const auto may_stand = [&](const Formula::Node& node) {
-    if (node.op != Formula::Operator::kSymbol) return true;
+    if (node.op != Formula::Operator::symbol) return true;
     return node.symbol != Symbols::kTime &&
            (!symbols.is_q(node.symbol) || affine[static_cast<std::size_t>(node.symbol - symbols.q0)]);
   };

@@ -20,10 +20,10 @@ void read_ripple(const NodePtr& node, const Scene& scene, ActuatorSettings& sett
                                     {0, 1, "0 to 1, a share of the torque"}, "the ripple's amplitude");
   settings.ripple_per_turn =
       read_each_motor(entry.at("per_turn"), scene, kPure, kPure, kPositive, "the ripple's periods per turn");
-  for (std::size_t i = 0; i < scene.motors.size(); ++i)
-    if (scene.motors[i].linear && settings.ripple[i] > 0)
+  for (std::size_t i = 0; i < scene.motors().size(); ++i)
+    if (scene.motors()[i].linear && settings.ripple[i] > 0)
       throw InputError("out_of_range", entry.at("amplitude")->place,
-                       "the linear motor '" + scene.motors[i].name +
+                       "the linear motor '" + scene.motors()[i].name +
                            "' has no turns for a ripple to go with; expected an amplitude of 0");
 }
 
@@ -39,7 +39,7 @@ void read_friction(const NodePtr& node, const Scene& scene, ActuatorSettings& se
   settings.smooth = read_each_motor(smooth, scene, kFrequency, kLength / kTime, kPositive,
                                     "the velocity up to which Coulomb friction is smooth");
   if (settings.smooth.empty() && !settings.coulomb.empty())
-    settings.smooth.assign(scene.motors.size(), kSmooth);
+    settings.smooth.assign(scene.motors().size(), kSmooth);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ bool FaultSettings::change_friction() const {
 bool may_change(const Scene& scene, int parameter) {
   const auto uses = [&](const Formula& formula) {
     return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Formula::Node& node) {
-      return node.op == Formula::Operator::kSymbol && node.symbol == Symbols::kParameter0 + parameter;
+      return node.op == Formula::Operator::symbol && node.symbol == Symbols::kParameter0 + parameter;
     });
   };
   for (const auto& coordinate : scene.coordinates)
@@ -51,7 +51,7 @@ const char* objection(const Fault& fault, const Scene& scene, double rate_hz) {
   if (fault.at < 0 || fault.duration < 0) return "a time is negative";
   if (fault.target > Target::friction) return "there is no such target";
   const auto count =
-      static_cast<int>(fault.target == Target::parameter ? scene.parameters.size() : scene.motors.size());
+      static_cast<int>(fault.target == Target::parameter ? scene.parameters.size() : scene.motors().size());
   if (fault.target != Target::friction && fault.index >= count)
     return "there is no such motor, sensor or parameter";
   if (fault.index < (fault.target == Target::parameter ? 0 : -1)) return "the index is negative";
@@ -138,7 +138,7 @@ double FaultFilter::filtered(double value) {
 Faults::Faults(const FaultSettings& settings, std::uint64_t seed, const Scene& scene, double rate_hz,
                std::vector<double> values)
     : rate_hz_(rate_hz),
-      n_(scene.motors.size()),
+      n_(scene.motors().size()),
       until_(2 * n_ + values.size() + 1, kNever),
       normal_(values),
       values_(std::move(values)) {

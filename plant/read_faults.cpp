@@ -78,12 +78,12 @@ class Reader {
   int read_index(const Node& node) const {
     const std::string& text = text_of(node, "a motor");
     if (text == "all") return -1;
-    for (std::size_t i = 0; i < scene_.motors.size(); ++i)
-      if (scene_.motors[i].name == text) return static_cast<int>(i);
+    for (std::size_t i = 0; i < scene_.motors().size(); ++i)
+      if (scene_.motors()[i].name == text) return static_cast<int>(i);
     if (text.find_first_not_of("0123456789") == std::string::npos)
       return static_cast<int>(whole_number_of(node, 1, scene_.n(), "the number of a motor")) - 1;
     std::vector<std::string> words{"all"};
-    for (const auto& motor : scene_.motors) words.push_back(motor.name);
+    for (const auto& motor : scene_.motors()) words.push_back(motor.name);
     word_of(node, words, "the motor");  // throws
     return -1;
   }
@@ -97,7 +97,7 @@ class Reader {
     fault.kind = static_cast<Kind>(word_of(*entry.at("kind"), kinds, "the kind of fault"));
     const Magnitude what = magnitude_of(fault.kind);
     if (what == Magnitude::none) return refuse(entry, {"magnitude"}, "says nothing with this kind of fault");
-    const bool linear = scene_.motors[static_cast<std::size_t>(std::max(fault.index, 0))].linear;
+    const bool linear = scene_.motors()[static_cast<std::size_t>(std::max(fault.index, 0))].linear;
     const Dimension value = motor ? (linear ? kForce : kMoment) : (linear ? kLength : kPure);
     const Dimension wanted = what == Magnitude::value ? value : what == Magnitude::time ? kTime : kPure;
     fault.magnitude = number_of(*entry.at("magnitude"), wanted, "the magnitude of a fault");
@@ -148,8 +148,8 @@ std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool fri
                                const std::vector<double>& values) {
   const Reader reader(scene, friction, rate_hz, values);
   std::vector<Fault> faults;
-  if (node->kind == Node::Kind::kEmpty) return faults;
-  if (node->kind != Node::Kind::kSequence)
+  if (node->kind == Node::Kind::empty) return faults;
+  if (node->kind != Node::Kind::sequence)
     throw InputError("wrong_kind", node->place, "the faults are " + describe(*node) + "; expected a list");
   for (const auto& item : node->items) faults.push_back(reader.read(item));
   return faults;

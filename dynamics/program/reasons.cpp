@@ -184,7 +184,7 @@ std::string row_text(const Eigen::RowVectorXd& row, const Scene& scene) {
     const double size = std::fabs(row[k]);
     const std::string factor = size == 1.0 ? "" : fmt::format("{:.6g} ", size);
     text += (text.empty() ? (row[k] < 0 ? "-" : "") : (row[k] < 0 ? " - " : " + ")) + factor +
-            scene.motors[static_cast<std::size_t>(k)].name + "'";
+            scene.independent[static_cast<std::size_t>(k)].name + "'";
   }
   return text;
 }

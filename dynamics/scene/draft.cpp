@@ -24,7 +24,7 @@ Formula SceneDraft::formula(const Node& node, const Dimension& wanted, const std
 std::array<Formula, 3> SceneDraft::vector(const NodePtr& node, const Dimension& wanted,
                                           const std::string& what, const Scope& scope) {
   if (!node) return {constant_formula(0, wanted), constant_formula(0, wanted), constant_formula(0, wanted)};
-  if (node->kind != Node::Kind::kSequence || node->items.size() != 3)
+  if (node->kind != Node::Kind::sequence || node->items.size() != 3)
     throw InputError("wrong_size", node->place,
                      "found " + describe(*node) + "; expected " + what + " as [x, y, z]");
   const auto part = [&](std::size_t i) { return formula(*node->items[i], wanted, what, scope); };
@@ -56,8 +56,8 @@ int SceneDraft::coordinate(const Mapping& entry) const {
 
 const Node* section(const Mapping& root, const char* key) {
   const NodePtr node = root.find(key);
-  if (!node || node->kind == Node::Kind::kEmpty) return nullptr;
-  if (node->kind != Node::Kind::kMapping)
+  if (!node || node->kind == Node::Kind::empty) return nullptr;
+  if (node->kind != Node::Kind::mapping)
     throw InputError("wrong_kind", node->place,
                      "found " + describe(*node) + "; expected " + key + " as name: value");
   return node.get();  // the document keeps it

@@ -34,16 +34,16 @@ void read_end_effector(const Mapping& root, SceneDraft& draft) {
 
 void read_home(const Mapping& root, SceneDraft& draft) {
   Scene& scene = draft.scene;
-  scene.home.assign(scene.motors.size(), 0.0);
+  scene.home.assign(scene.independent.size(), 0.0);
   const NodePtr node = root.find("home");
   if (!node) return;
   std::vector<std::string> names;
-  for (const auto& motor : scene.motors) names.push_back(motor.name);
+  for (const auto& motor : scene.independent) names.push_back(motor.name);
   const Mapping entry(node, "home", names);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const NodePtr value = entry.find(names[i]);
     if (!value) continue;
-    const Formula psi = draft.formula(*value, scene.motors[i].linear ? kLength : kPure,
+    const Formula psi = draft.formula(*value, scene.independent[i].linear ? kLength : kPure,
                                       "the position of '" + names[i] + "'", draft.fixed);
     if (!psi.is_constant())
       throw InputError("varying_number", value->place, "home depends on no parameter; expected a number");
@@ -92,7 +92,7 @@ Scene load_scene(const std::filesystem::path& path) { return load_scene(read_doc
 
 std::vector<double> parameter_values(const Scene& scene, const NodePtr& overrides,
                                      std::vector<double> values) {
-  if (!overrides || overrides->kind == Node::Kind::kEmpty) return values;
+  if (!overrides || overrides->kind == Node::Kind::empty) return values;
   std::vector<std::string> names;
   for (const auto& parameter : scene.parameters) names.push_back(parameter.name);
   const Mapping entry(overrides, "the parameters", names);

@@ -69,7 +69,7 @@ void read_bodies(const Mapping& root, SceneDraft& draft) {
 
 void read_loads(const Mapping& root, SceneDraft& draft) {
   const NodePtr node = root.find("loads");
-  if (!node || node->kind == Node::Kind::kEmpty) return;
+  if (!node || node->kind == Node::Kind::empty) return;
   Scope timed = draft.fixed;
   timed.define_symbol("t", Symbols::kTime, kTime, {});
   for (const auto& item : items_within(node, 0, kMostLoads, "the loads")) {

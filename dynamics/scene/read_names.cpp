@@ -19,7 +19,7 @@ constexpr std::size_t kMostCoordinates = 256;
 
 const Node& constraints_of(const Mapping& root) {
   const NodePtr node = root.at("constraints");
-  if (node->kind != Node::Kind::kMapping)
+  if (node->kind != Node::Kind::mapping)
     throw InputError("wrong_kind", node->place,
                      "found " + describe(*node) + "; expected constraints as coordinate: equation");
   return *node;
@@ -92,9 +92,9 @@ void read_motors(const Mapping& root, SceneDraft& draft) {
   const auto add = [&](const std::string& name, bool linear, const Place& place) {
     check_symbol_name(name, place);
     draft.moving.define_symbol(name, Symbols(scene).psi0 + scene.n(), linear ? kLength : kPure, place);
-    scene.motors.push_back({name, linear});
+    scene.independent.push_back({name, linear});
   };
-  if (node->kind != Node::Kind::kMapping) {
+  if (node->kind != Node::Kind::mapping) {
     for (const auto& item : items_within(node, 1, kMostMotors, "the motors' names"))
       add(text_of(*item, "a motor's name"), false, item->place);
     return;

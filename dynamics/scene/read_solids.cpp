@@ -87,7 +87,7 @@ Scene::Solid solid_in(const NodePtr& item, SceneDraft& draft) {
 
 void read_solids(const Mapping& root, SceneDraft& draft) {
   const NodePtr node = root.find("solids");
-  if (!node || node->kind == Node::Kind::kEmpty) return;
+  if (!node || node->kind == Node::Kind::empty) return;
   for (const auto& item : items_within(node, 0, kMostSolids, "the solids"))
     draft.scene.solids.push_back(solid_in(item, draft));
 }

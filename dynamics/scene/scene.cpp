@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/scene/scene.hpp"
 
+#include <algorithm>
+
 namespace mixloop {
+
+std::span<const Scene::Independent> Scene::motors() const {
+  const auto driven = std::find_if(independent.begin(), independent.end(),
+                                   [](const Independent& coordinate) { return !coordinate.driven; });
+  return {independent.begin(), driven};
+}
 
 std::vector<double> Scene::default_parameters() const {
   std::vector<double> values;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,10 @@ namespace mixloop {
 /// formulas; constraints and loads may depend on time.
 struct Scene {
   /// An independent coordinate psi_i: an angle, or a displacement where `linear`.
-  struct Motor {
+  struct Independent {
     std::string name;
     bool linear = false;
+    bool driven = true;  ///< by a motor
   };
 
   /// A dependent coordinate q_j and the constraint equation that gives it, (1).
@@ -94,7 +96,7 @@ struct Scene {
   };
 
   std::string name;
-  std::vector<Motor> motors;
+  std::vector<Independent> independent;  ///< Psi: the motors, then the free ones
   std::vector<Coordinate> coordinates;
   std::vector<int> evaluation_order;  ///< of the constraints: each after those it refers to
   std::vector<Parameter> parameters;
@@ -113,7 +115,10 @@ struct Scene {
 
   /// Whether anything but inertia, gravity and the motors acts.
   bool is_loaded() const { return !loads.empty() || !coordinate_loads.empty(); }
-  int n() const { return static_cast<int>(motors.size()); }
+  int n() const { return static_cast<int>(independent.size()); }
+  /// The independent coordinates that motors drive: motor i drives psi_i, so a force tau_i acts along it.
+  int n_u() const { return static_cast<int>(motors().size()); }
+  std::span<const Independent> motors() const;
   int m() const { return static_cast<int>(coordinates.size()); }
   std::vector<double> default_parameters() const;
 };

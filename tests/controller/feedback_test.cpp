@@ -33,13 +33,13 @@ class FeedbackOf : public testing::TestWithParam<Case> {};
 WideVector torque(Procedure<Wide>& model, const ControllerSettings& settings, const WideVector& psi,
                   const WideVector& psid) {
   const WideVector psi_d = kPsi.cast<Wide>(), psid_d = kPsid.cast<Wide>(), psidd_d = kPsidd.cast<Wide>();
-  const bool desired = settings.feedforward_at == FeedforwardAt::kDesired;
+  const bool desired = settings.feedforward_at == FeedforwardAt::desired;
   const WideVector at = desired ? psi_d : psi, rate = desired ? psid_d : psid;
   WideVector tau = settings.kp.cast<Wide>().cwiseProduct(psi_d - psi) +
                    settings.kv.cast<Wide>().cwiseProduct(psid_d - psid);
-  if (settings.law == Law::kPdFeedforward) tau += model.mass(at) * psidd_d;
-  if (settings.law == Law::kPdGravity) tau += model.h(at, WideVector::Zero(3));
-  if (settings.law == Law::kComputedTorque) tau += model.inverse(at, rate, psidd_d);
+  if (settings.law == Law::pd_feedforward) tau += model.mass(at) * psidd_d;
+  if (settings.law == Law::pd_gravity) tau += model.h(at, WideVector::Zero(3));
+  if (settings.law == Law::computed_torque) tau += model.inverse(at, rate, psidd_d);
   return tau;
 }
 
@@ -84,11 +84,11 @@ TEST_P(FeedbackOf, IsTheDerivativeOfItsTorque) {
 
 INSTANTIATE_TEST_SUITE_P(
     Laws, FeedbackOf,
-    testing::Values(Case{"Pd", Law::kPd, FeedforwardAt::kMeasured},
-                    Case{"PdGravity", Law::kPdGravity, FeedforwardAt::kMeasured},
-                    Case{"PdFeedforward", Law::kPdFeedforward, FeedforwardAt::kMeasured},
-                    Case{"PdFeedforwardAtDesired", Law::kPdFeedforward, FeedforwardAt::kDesired},
-                    Case{"ComputedTorque", Law::kComputedTorque, FeedforwardAt::kMeasured}),
+    testing::Values(Case{"Pd", Law::pd, FeedforwardAt::measured},
+                    Case{"PdGravity", Law::pd_gravity, FeedforwardAt::measured},
+                    Case{"PdFeedforward", Law::pd_feedforward, FeedforwardAt::measured},
+                    Case{"PdFeedforwardAtDesired", Law::pd_feedforward, FeedforwardAt::desired},
+                    Case{"ComputedTorque", Law::computed_torque, FeedforwardAt::measured}),
     [](const auto& one) { return one.param.name; });
 
 }  // namespace

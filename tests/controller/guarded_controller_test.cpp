@@ -31,7 +31,7 @@ struct Bench {
 };
 
 // kp = (100, 25, 25).
-TEST(GuardedController, keeps_to_a_torque_limit) {
+TEST(GuardedController, KeepsToATorqueLimit) {
   Bench bench("{torque_limit: [2, 1, 1]}");
   EXPECT_FALSE(bench.at(0).limited);
   bench.psi[0] -= 0.01;
@@ -44,7 +44,7 @@ TEST(GuardedController, keeps_to_a_torque_limit) {
   EXPECT_EQ(bench.tau[1], -1);
 }
 
-TEST(GuardedController, keeps_to_a_torque_rate) {
+TEST(GuardedController, KeepsToATorqueRate) {
   Bench bench("{torque_rate_limit: [100 N m/s, 100 N m/s, 100 N m/s]}");
   bench.at(0);
   bench.psi[0] -= 0.01;
@@ -57,7 +57,7 @@ TEST(GuardedController, keeps_to_a_torque_rate) {
 }
 
 // Who replays a run knows only the commands that were taken.
-TEST(GuardedController, remembers_nothing_of_a_safe_command_beside_the_law) {
+TEST(GuardedController, RemembersNothingOfASafeCommandBesideTheLaw) {
   Bench bench("{torque_rate_limit: [100 N m/s, 100 N m/s, 100 N m/s], safe_command: damp}");
   bench.at(0);
   bench.psi[0] -= 0.01;
@@ -68,7 +68,7 @@ TEST(GuardedController, remembers_nothing_of_a_safe_command_beside_the_law) {
   EXPECT_NEAR(bench.tau[0], 0.1, 1e-12) << "from the law's own last torque, and since then";
 }
 
-TEST(GuardedController, stays_safe_once_the_state_is_out_of_range) {
+TEST(GuardedController, StaysSafeOnceTheStateIsOutOfRange) {
   Bench bench("{velocity_limit: [5 rad/s, 5 rad/s, 5 rad/s], safe_command: damp}");
   bench.psid[1] = 4;
   EXPECT_FALSE(bench.at(0).safe);
@@ -82,7 +82,7 @@ TEST(GuardedController, stays_safe_once_the_state_is_out_of_range) {
   EXPECT_FALSE(bench.at(0).safe);
 }
 
-TEST(GuardedController, knows_each_motors_range) {
+TEST(GuardedController, KnowsEachMotorsRange) {
   Bench bench("{position_range: [[-99, 99], [-99, 99], [-99, 99]]}");
   EXPECT_FALSE(bench.at(0).safe);
   bench.psi[2] = 99.5;
@@ -90,7 +90,7 @@ TEST(GuardedController, knows_each_motors_range) {
   EXPECT_EQ(bench.tau.norm(), 0);
 }
 
-TEST(GuardedController, is_safe_while_the_sensors_do_not_deliver) {
+TEST(GuardedController, IsSafeWhileTheSensorsDoNotDeliver) {
   Bench bench("{max_stale: 2}");
   EXPECT_FALSE(bench.at(0, true).safe);
   EXPECT_FALSE(bench.at(0.001, true).safe);
@@ -98,7 +98,7 @@ TEST(GuardedController, is_safe_while_the_sensors_do_not_deliver) {
   EXPECT_FALSE(bench.at(0.003, false).safe) << "back";
 }
 
-TEST(GuardedController, refuses_to_start_far_away) {
+TEST(GuardedController, RefusesToStartFarAway) {
   Bench bench("{start_tolerance: [0.1, 0.1, 0.1]}");
   EXPECT_EQ(bench.controller.start_refusal(span_of(std::as_const(bench.psi)), bench.plan.at(0)), "");
   bench.psi[1] += 0.11;
@@ -108,7 +108,7 @@ TEST(GuardedController, refuses_to_start_far_away) {
 
 class BadSafety : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadSafety, is_refused) {
+TEST_P(BadSafety, IsRefused) {
   const auto error = input_error([] { Bench bench(GetParam().text); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code, GetParam().code);

@@ -10,7 +10,7 @@ using namespace mixloop;
 
 Node scalar(std::string_view text) {
   Node node;
-  node.kind = Node::Kind::kScalar;
+  node.kind = Node::Kind::scalar;
   node.text = text;
   node.place = {"fuzz", 1, 1};
   return node;

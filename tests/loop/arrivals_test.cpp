@@ -33,13 +33,13 @@ Arrivals all_after(std::int64_t offset, std::int64_t ticks = 1000) {
   return arrivals;
 }
 
-TEST(Arrivals, at_once_are_lockstep_to_the_bit) {
+TEST(Arrivals, AtOnceAreLockstepToTheBit) {
   const auto arrivals = all_after(0);
   EXPECT_EQ(measured(paper(), &arrivals).trajectory_sha256, measured(paper(), nullptr).trajectory_sha256);
 }
 
 // The tick is split at the same place; only 1e-9 * 400000 and 0.4 / 1000 may round apart, by 5e-20 s.
-TEST(Arrivals, after_a_fixed_time_are_a_command_delay) {
+TEST(Arrivals, AfterAFixedTimeAreACommandDelay) {
   const auto arrivals = all_after(400'000);
   const Measures late = measured(paper(), &arrivals);
   const Measures delayed = measured(paper({{"plant.command_delay", "400 us"}}), nullptr);
@@ -47,14 +47,14 @@ TEST(Arrivals, after_a_fixed_time_are_a_command_delay) {
   EXPECT_NEAR(late.final_position_error, delayed.final_position_error, 1e-12);
 }
 
-TEST(Arrivals, and_a_command_delay_add_up) {
+TEST(Arrivals, AndACommandDelayAddUp) {
   const auto arrivals = all_after(150'000);
   const Measures both = measured(paper({{"plant.command_delay", "250 us"}}), &arrivals);
   const Measures delayed = measured(paper({{"plant.command_delay", "400 us"}}), nullptr);
   EXPECT_NEAR(both.max_position_error, delayed.max_position_error, 1e-12);
 }
 
-TEST(Arrivals, that_stop_bring_the_safe_state) {
+TEST(Arrivals, ThatStopBringTheSafeState) {
   auto arrivals = all_after(50'000);
   arrivals.commands.resize(300);  // command 299 is the last
   const Measures measures = measured(paper({{"real_time.max_missed", "20"}}), &arrivals);
@@ -66,7 +66,7 @@ TEST(Arrivals, that_stop_bring_the_safe_state) {
 
 // Up to 10 ms on, psi'' of a cycloid of 1 s is off by up to 2 pi 0.01 of its largest: 6 %, for 10 ms of the
 // second.
-TEST(Arrivals, know_of_extrapolated_references) {
+TEST(Arrivals, KnowOfExtrapolatedReferences) {
   auto arrivals = all_after(50'000);
   const Measures plain = measured(paper(), &arrivals);
   for (std::size_t k = 400; k < 410; ++k) arrivals.commands[k].ahead = static_cast<std::int64_t>(k) - 399;
@@ -75,7 +75,7 @@ TEST(Arrivals, know_of_extrapolated_references) {
   EXPECT_NEAR(extrapolated.max_position_error, plain.max_position_error, 0.06 * plain.max_position_error);
 }
 
-TEST(Arrivals, know_of_safe_commands_and_of_the_safe_state_that_they_brought) {
+TEST(Arrivals, KnowOfSafeCommandsAndOfTheSafeStateThatTheyBrought) {
   auto arrivals = all_after(50'000);
   for (std::size_t k = 400; k <= 420; ++k) arrivals.commands[k].ahead = Arrival::kBlind;
   EXPECT_FALSE(measured(paper({{"limits.position_error", "1 m"}}), &arrivals).safe_at)
@@ -87,7 +87,7 @@ TEST(Arrivals, know_of_safe_commands_and_of_the_safe_state_that_they_brought) {
 }
 
 // The law has been asked all the same: what it remembers for its rate limit is that answer.
-TEST(Arrivals, know_of_safe_commands_after_the_laws_own) {
+TEST(Arrivals, KnowOfSafeCommandsAfterTheLawsOwn) {
   const auto experiment = paper({{"limits.position_error", "1 m"},
                                  {"controller.safety.torque_rate_limit", "[50 N m/s, 50 N m/s, 50 N m/s]"}});
   auto arrivals = all_after(50'000);
@@ -101,7 +101,7 @@ TEST(Arrivals, know_of_safe_commands_after_the_laws_own) {
   EXPECT_NE(afterwards.trajectory_sha256, blind.trajectory_sha256) << "1 ms less to catch up in";
 }
 
-TEST(Arrivals, know_of_faults_by_message) {
+TEST(Arrivals, KnowOfFaultsByMessage) {
   auto experiment = paper({{"limits.position_error", "1 m"}});
   experiment.plant.faults.injected = true;
   auto arrivals = all_after(50'000);
@@ -110,7 +110,7 @@ TEST(Arrivals, know_of_faults_by_message) {
   EXPECT_GT(measured(experiment, &arrivals).max_position_error, 5 * well.max_position_error);
 }
 
-TEST(Arrivals, read_back_as_they_were_written) {
+TEST(Arrivals, ReadBackAsTheyWereWritten) {
   const ScratchFolder folder;
   const Fault fault{.target = Fault::Target::sensor,
                     .kind = Fault::Kind::slow,
@@ -153,7 +153,7 @@ TEST(Arrivals, read_back_as_they_were_written) {
 
 class BadArrivals : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadArrivals, are_refused_with_their_line) {
+TEST_P(BadArrivals, AreRefusedWithTheirLine) {
   const ScratchFolder folder;
   const std::string file = folder.write("ages.csv", GetParam().text);
   const auto error = input_error([&] { read_arrivals(file); });

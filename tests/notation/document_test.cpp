@@ -17,14 +17,14 @@ NodePtr parsed(const std::string& text) { return parse_document(text, "file.yaml
 /// Where the last character of the only scalar stands.
 std::string place_of_last(const std::string& text) {
   const NodePtr root = parsed(text);
-  const Node& scalar = root->kind == Node::Kind::kMapping ? *root->entries.at(0).value : *root;
+  const Node& scalar = root->kind == Node::Kind::mapping ? *root->entries.at(0).value : *root;
   const Place place = place_in(scalar, scalar.text.size() - 1);
   return fmt::format("{}:{}", place.line, place.column);
 }
 
 TEST(Document, KeepsOrderTextAndPlaces) {
   const NodePtr root = parsed("b: 30 cm\na:\n  - x\n  - {c: 'y'}\n");
-  ASSERT_EQ(root->kind, Node::Kind::kMapping);
+  ASSERT_EQ(root->kind, Node::Kind::mapping);
   ASSERT_EQ(root->entries.size(), 2U);
   EXPECT_EQ(root->entries[0].key, "b");
   EXPECT_EQ(root->entries[0].value->text, "30 cm");
@@ -39,8 +39,8 @@ TEST(Document, KeepsOrderTextAndPlaces) {
 TEST(Document, AbsentNullAndTildeAreEmptyButNotAQuotedNothing) {
   const NodePtr root = parsed("a:\nb: null\nc: ~\nd: ''\n");
   for (int i = 0; i < 3; ++i)
-    EXPECT_EQ(root->entries[static_cast<std::size_t>(i)].value->kind, Node::Kind::kEmpty) << i;
-  EXPECT_EQ(root->entries[3].value->kind, Node::Kind::kScalar);
+    EXPECT_EQ(root->entries[static_cast<std::size_t>(i)].value->kind, Node::Kind::empty) << i;
+  EXPECT_EQ(root->entries[3].value->kind, Node::Kind::scalar);
 }
 
 TEST(Document, AnAliasIsItsAnchorsValue) {
@@ -84,7 +84,7 @@ TEST(Document, ThirtyTwoLevelsAreRead) {
     for (int i = 0; i < 32; ++i) lines += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
     return lines;
   }());
-  EXPECT_EQ(deep->kind, Node::Kind::kMapping);
+  EXPECT_EQ(deep->kind, Node::Kind::mapping);
 }
 
 TEST(Document, SaysWhatItIs) {

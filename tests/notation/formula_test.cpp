@@ -155,7 +155,7 @@ class RefusedFormula : public testing::TestWithParam<BadInput> {};
 TEST_P(RefusedFormula, WithItsPlace) {
   expect_refused(GetParam(), [](const std::string& text, const std::string& file) {
     const NodePtr root = parse_document(text, file);
-    parse_formula(root->kind == Node::Kind::kMapping ? *root->entries.at(0).value : *root, "a formula",
+    parse_formula(root->kind == Node::Kind::mapping ? *root->entries.at(0).value : *root, "a formula",
                   scope());
   });
 }

@@ -11,14 +11,14 @@ namespace {
 std::string flow(const Node& node) {
   std::string text;
   switch (node.kind) {
-    case Node::Kind::kEmpty:
+    case Node::Kind::empty:
       return "~";
-    case Node::Kind::kScalar:
+    case Node::Kind::scalar:
       return node.text;
-    case Node::Kind::kSequence:
+    case Node::Kind::sequence:
       for (const auto& item : node.items) text += (text.empty() ? "" : ", ") + flow(*item);
       return "[" + text + "]";
-    case Node::Kind::kMapping:
+    case Node::Kind::mapping:
       for (const auto& entry : node.entries)
         text += (text.empty() ? "" : ", ") + entry.key + ": " + flow(*entry.value);
       return "{" + text + "}";

@@ -12,14 +12,14 @@ namespace {
 // condition.
 TEST(Follower, GoesTheSameWayByBothMethods) {
   const auto model = paper_robot();
-  InverseKinematics closed(model), general(model, InverseKinematics::Method::kNewton);
+  InverseKinematics closed(model), general(model, InverseKinematics::Method::newton);
   const Itinerary itinerary(path_from(kPaperPath, model), 1000, 1);
   Follower left(closed, itinerary, 0), right(general, itinerary, 0);
-  ASSERT_EQ(left.start({}), IkOutcome::kSolved);
-  ASSERT_EQ(right.start({}), IkOutcome::kSolved);
+  ASSERT_EQ(left.start({}), IkOutcome::solved);
+  ASSERT_EQ(right.start({}), IkOutcome::solved);
   for (int k = 0; k <= 1000; ++k) {
-    ASSERT_EQ(left.advance(k), IkOutcome::kSolved);
-    ASSERT_EQ(right.advance(k), IkOutcome::kSolved);
+    ASSERT_EQ(left.advance(k), IkOutcome::solved);
+    ASSERT_EQ(right.advance(k), IkOutcome::solved);
     EXPECT_LT((left.now().motors.psi - right.now().motors.psi).norm(), 1e-11) << k;
     EXPECT_LT((left.now().motors.psid - right.now().motors.psid).norm(),
               1e-11 * (1 + left.now().motors.psid.norm()))
@@ -33,14 +33,14 @@ TEST(Follower, GoesTheSameWayByBothMethods) {
 // Two steps for the whole line: Newton's method goes there in smaller ones.
 TEST(Follower, TakesCoarseGridsInSmallerSteps) {
   const auto model = paper_robot();
-  InverseKinematics closed(model), general(model, InverseKinematics::Method::kNewton);
+  InverseKinematics closed(model), general(model, InverseKinematics::Method::newton);
   const Itinerary itinerary(path_from(kPaperPath, model), 2, 1);
   Follower left(closed, itinerary, 0), right(general, itinerary, 0);
-  ASSERT_EQ(left.start({}), IkOutcome::kSolved);
-  ASSERT_EQ(right.start({}), IkOutcome::kSolved);
+  ASSERT_EQ(left.start({}), IkOutcome::solved);
+  ASSERT_EQ(right.start({}), IkOutcome::solved);
   for (int k = 1; k <= 2; ++k) {
-    ASSERT_EQ(left.advance(k), IkOutcome::kSolved);
-    ASSERT_EQ(right.advance(k), IkOutcome::kSolved);
+    ASSERT_EQ(left.advance(k), IkOutcome::solved);
+    ASSERT_EQ(right.advance(k), IkOutcome::solved);
     EXPECT_LT((left.now().motors.psi - right.now().motors.psi).norm(), 1e-11) << k;
   }
 }
@@ -51,9 +51,9 @@ TEST(Follower, FindsWhereTheWayEnds) {
   InverseKinematics ik(model);
   const Itinerary itinerary(path_from("{line: {from: [1, 0], to: [3, 0]}, duration: 1 s}", model), 1000, 1);
   Follower follower(ik, itinerary, 0);
-  ASSERT_EQ(follower.start({}), IkOutcome::kSolved);
+  ASSERT_EQ(follower.start({}), IkOutcome::solved);
   int k = 0;
-  while (follower.advance(k) == IkOutcome::kSolved) ++k;
+  while (follower.advance(k) == IkOutcome::solved) ++k;
   EXPECT_NEAR(k, 500, 1);
   EXPECT_NEAR(follower.limit(k), 500, 0.01);
 }

@@ -55,17 +55,17 @@ home: {c: 1}
   InverseKinematics ik(model);
   ASSERT_TRUE(ik.arm());
   Vector psi;
-  ASSERT_EQ(ik.position_from_home({1, 0, 1}, 0, psi), IkOutcome::kSolved);
+  ASSERT_EQ(ik.position_from_home({1, 0, 1}, 0, psi), IkOutcome::solved);
   EXPECT_LT((psi - Vector3d(0, 0, kPi / 2)).norm(), 1e-15);
-  ASSERT_EQ(ik.position_from_home({0, 1, -1}, 0, psi), IkOutcome::kSolved);
+  ASSERT_EQ(ik.position_from_home({0, 1, -1}, 0, psi), IkOutcome::solved);
   EXPECT_LT((psi - Vector3d(kPi / 2, -kPi / 2, kPi / 2)).norm(), 1e-15);
-  EXPECT_EQ(ik.position_from_home({2, 0, 1}, 0, psi), IkOutcome::kOutOfReach);
+  EXPECT_EQ(ik.position_from_home({2, 0, 1}, 0, psi), IkOutcome::out_of_reach);
 
   // The shoulder alone turns (1, 0, 1) about the origin.
   ik.position_from_home({1, 0, 1}, 0, psi);
   Vector psid, psidd;
   ASSERT_EQ(ik.rates({.position = {1, 0, 1}, .velocity = {-1, 0, 1}}, 0, psi, psid, psidd),
-            IkOutcome::kSolved);
+            IkOutcome::solved);
   EXPECT_LT((psid - Vector3d(0, 1, 0)).norm(), 1e-15);
 }
 
@@ -134,7 +134,7 @@ TEST_P(Family, FindsThePointThatForwardKinematicsGave) {
     const Vector pose = random_pose(*ik.arm(), random);
     const Vector3d point = ik.forward(pose, zero, zero, 0).position;
     Vector psi;
-    ASSERT_EQ(ik.position_from_home(point, 0, psi), IkOutcome::kSolved) << sample;
+    ASSERT_EQ(ik.position_from_home(point, 0, psi), IkOutcome::solved) << sample;
     EXPECT_LT(ik.miss(point, 0, psi), 1e-14) << sample;
     // The same pose, up to whole turns of the axes: near the borders angles are worse known than points.
     const Vector3d turns = (ik.arm()->angles(psi) - ik.arm()->angles(pose)) / (2 * kPi);
@@ -143,14 +143,14 @@ TEST_P(Family, FindsThePointThatForwardKinematicsGave) {
         ik.arm()->angles(psi) - ik.arm()->angles(Eigen::Map<const Vector>(arm_model.scene->home.data(), 3));
     EXPECT_LE(from_home.cwiseAbs().maxCoeff(), kPi * (1 + 1e-12));
     Vector again = pose;  // as a continuation it comes back as it was
-    ASSERT_EQ(ik.position(point, 0, again), IkOutcome::kSolved);
+    ASSERT_EQ(ik.position(point, 0, again), IkOutcome::solved);
     EXPECT_LT((again - pose).cwiseQuotient(ik.motor_scale()).norm(), 1e-12);
   }
 }
 
 TEST_P(Family, AgreesWithTheGeneralMethodInPositionAndRates) {
   const auto arm_model = model();
-  InverseKinematics closed(arm_model), general(arm_model, Method::kNewton);
+  InverseKinematics closed(arm_model), general(arm_model, Method::newton);
   EXPECT_FALSE(general.arm());
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> rate(-1, 1), nudge(-0.05, 0.05);
@@ -163,12 +163,12 @@ TEST_P(Family, AgreesWithTheGeneralMethodInPositionAndRates) {
     Vector psi = closed.arm()->motors(closed.arm()->angles(pose) +
                                       Vector3d(nudge(random), nudge(random), nudge(random))),
            other = psi;
-    ASSERT_EQ(closed.position(point.position, 0, psi), IkOutcome::kSolved);
-    ASSERT_EQ(general.position(point.position, 0, other), IkOutcome::kSolved) << sample;
+    ASSERT_EQ(closed.position(point.position, 0, psi), IkOutcome::solved);
+    ASSERT_EQ(general.position(point.position, 0, other), IkOutcome::solved) << sample;
     EXPECT_LT((psi - other).cwiseQuotient(closed.motor_scale()).norm(), 1e-11) << sample;
     Vector psid, psidd, other_d, other_dd;
-    ASSERT_EQ(closed.rates(point, 0, psi, psid, psidd), IkOutcome::kSolved);
-    ASSERT_EQ(general.rates(point, 0, psi, other_d, other_dd), IkOutcome::kSolved);
+    ASSERT_EQ(closed.rates(point, 0, psi, psid, psidd), IkOutcome::solved);
+    ASSERT_EQ(general.rates(point, 0, psi, other_d, other_dd), IkOutcome::solved);
     // The condition number of such poses stays below 1e3, in psidd squared.
     EXPECT_LT((psid - other_d).norm(), 1e-12 * psid.norm()) << sample;
     EXPECT_LT((psidd - other_dd).norm(), 1e-11 * psidd.norm()) << sample;
@@ -195,8 +195,8 @@ TEST(InverseKinematics, RatesAreTheDerivativesOfThePosition) {
   Vector psi, psid, psidd;
   for (const int k : {1, 50, 250, 486, 500, 501, 777, 999}) {
     const PathPoint point = itinerary.at(k);
-    ASSERT_EQ(ik.position_from_home(point.position, 0, psi), IkOutcome::kSolved);
-    ASSERT_EQ(ik.rates(point, 0, psi, psid, psidd), IkOutcome::kSolved);
+    ASSERT_EQ(ik.position_from_home(point.position, 0, psi), IkOutcome::solved);
+    ASSERT_EQ(ik.rates(point, 0, psi, psid, psidd), IkOutcome::solved);
     const Wide t = Wide(k) / 1000;
     const auto before = angles(t - h), now = angles(t), after = angles(t + h);
     Vector3d rate, acceleration;
@@ -218,15 +218,15 @@ TEST(InverseKinematics, SolvesPlanarArmsByTheGeneralMethod) {
     Vector psi, psid, psidd;
     Vector3d point(1, 0, 0);
     point[up] = 1;
-    ASSERT_EQ(ik.position_from_home(point, 0, psi), IkOutcome::kSolved);
+    ASSERT_EQ(ik.position_from_home(point, 0, psi), IkOutcome::solved);
     EXPECT_LT((psi - Eigen::Vector2d(0, kPi / 2)).norm(), 1e-15);
     // There the first link lies along x and the second stands on its end: b alone moves its tip along x.
     PathPoint motion{.position = point, .velocity = {-1, 0, 0}};
-    ASSERT_EQ(ik.rates(motion, 0, psi, psid, psidd), IkOutcome::kSolved);
+    ASSERT_EQ(ik.rates(motion, 0, psi, psid, psidd), IkOutcome::solved);
     EXPECT_LT((psid - Eigen::Vector2d(0, 1)).norm(), 1e-15);
     EXPECT_EQ(psidd.size(), 2);
     point[0] = 3;
-    EXPECT_EQ(ik.position_from_home(point, 0, psi), IkOutcome::kOutOfReach);
+    EXPECT_EQ(ik.position_from_home(point, 0, psi), IkOutcome::out_of_reach);
     EXPECT_NEAR(ik.miss(point, 0, psi), std::sqrt(10.0) - 2, 1e-6);
   }
 }
@@ -242,7 +242,7 @@ TEST(InverseKinematics, KeepsHomesBranchByTheGeneralMethod) {
     const Vector pose = Eigen::Vector2d(angle(random), bent(random));
     const Vector3d point = ik.forward(pose, zero, zero, 0).position;
     Vector psi;
-    ASSERT_EQ(ik.position_from_home(point, 0, psi), IkOutcome::kSolved) << sample;
+    ASSERT_EQ(ik.position_from_home(point, 0, psi), IkOutcome::solved) << sample;
     EXPECT_LT(ik.miss(point, 0, psi), 1e-14) << sample;
     EXPECT_GT(std::sin(psi[1]), 0) << sample;
   }
@@ -252,16 +252,16 @@ TEST(InverseKinematics, SolvesPrismaticScenesAndThoseThatMoveByThemselves) {
   const auto still = model_from(gantry(false));
   InverseKinematics ik(still);
   Vector psi, psid, psidd;
-  ASSERT_EQ(ik.position_from_home({1, 2, 0.05}, 0, psi), IkOutcome::kSolved);
+  ASSERT_EQ(ik.position_from_home({1, 2, 0.05}, 0, psi), IkOutcome::solved);
   EXPECT_LT((psi - Vector3d(10 * kPi, 1, 2)).norm(), 1e-13);
 
   // x = b + 0.1 sin(2 t): to stand still at x = 1, b = 1 - 0.1 sin(2 t).
   const auto moving = model_from(gantry(true));
   InverseKinematics on_ship(moving);
   const double t = 0.3;
-  ASSERT_EQ(on_ship.position_from_home({1, 2, 0.05}, t, psi), IkOutcome::kSolved);
+  ASSERT_EQ(on_ship.position_from_home({1, 2, 0.05}, t, psi), IkOutcome::solved);
   EXPECT_LT((psi - Vector3d(10 * kPi, 1 - 0.1 * std::sin(0.6), 2)).norm(), 1e-13);
-  ASSERT_EQ(on_ship.rates({.position = {1, 2, 0.05}}, t, psi, psid, psidd), IkOutcome::kSolved);
+  ASSERT_EQ(on_ship.rates({.position = {1, 2, 0.05}}, t, psi, psid, psidd), IkOutcome::solved);
   EXPECT_LT((psid - Vector3d(0, -0.2 * std::cos(0.6), 0)).norm(), 1e-15);
   EXPECT_LT((psidd - Vector3d(0, 0.4 * std::sin(0.6), 0)).norm(), 1e-15);
 }

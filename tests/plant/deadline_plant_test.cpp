@@ -41,7 +41,7 @@ struct Bench {
   Vector tau = Vector::Zero(3);
 };
 
-TEST(DeadlinePlant, counts_what_is_missed) {
+TEST(DeadlinePlant, CountsWhatIsMissed) {
   Bench bench;
   bench.live(50);
   EXPECT_EQ(bench.hardware.missed(), 0);
@@ -57,7 +57,7 @@ TEST(DeadlinePlant, counts_what_is_missed) {
   EXPECT_EQ(bench.hardware.arrivals().commands.size(), 90U);
 }
 
-TEST(DeadlinePlant, keeps_the_torque_of_the_last_command_while_one_is_missing) {
+TEST(DeadlinePlant, KeepsTheTorqueOfTheLastCommandWhileOneIsMissing) {
   Bench bench;
   bench.live(50);
   const Vector last = bench.tau;
@@ -65,7 +65,7 @@ TEST(DeadlinePlant, keeps_the_torque_of_the_last_command_while_one_is_missing) {
   EXPECT_EQ(map_of(bench.hardware.commanded()), last);
 }
 
-TEST(DeadlinePlant, goes_into_its_safe_state_after_max_missed_and_stays) {
+TEST(DeadlinePlant, GoesIntoItsSafeStateAfterMaxMissedAndStays) {
   Bench bench("real_time.max_missed=4");
   bench.live(50);
   bench.miss(4);
@@ -78,7 +78,7 @@ TEST(DeadlinePlant, goes_into_its_safe_state_after_max_missed_and_stays) {
   EXPECT_NE(map_of(bench.hardware.commanded()), bench.tau) << "a command was obeyed";
 }
 
-TEST(DeadlinePlant, holds_where_it_stood) {
+TEST(DeadlinePlant, HoldsWhereItStood) {
   Bench bench("real_time.safe_state=hold");
   bench.live(400);
   bench.hardware.make_safe("test");
@@ -89,7 +89,7 @@ TEST(DeadlinePlant, holds_where_it_stood) {
   EXPECT_LT((map_of(bench.plant().psi()) - stand).cwiseAbs().maxCoeff(), 0.2);
 }
 
-TEST(DeadlinePlant, damps) {
+TEST(DeadlinePlant, Damps) {
   Bench bench("real_time.safe_state=damp", "scene.gravity=[0, 0, 0]");
   bench.live(400);
   bench.hardware.make_safe("test");
@@ -99,7 +99,7 @@ TEST(DeadlinePlant, damps) {
   EXPECT_LT(bench.speed(), 1e-3 * before);
 }
 
-TEST(DeadlinePlant, lets_go_at_zero_torque) {
+TEST(DeadlinePlant, LetsGoAtZeroTorque) {
   Bench bench("real_time.safe_state=zero_torque");
   bench.live(100);
   bench.hardware.make_safe("test");
@@ -108,7 +108,7 @@ TEST(DeadlinePlant, lets_go_at_zero_torque) {
   EXPECT_EQ(map_of(bench.plant().applied()).norm(), 0);
 }
 
-TEST(DeadlinePlant, locks_by_its_brake) {
+TEST(DeadlinePlant, LocksByItsBrake) {
   Bench bench("real_time.safe_state=brake");
   bench.live(400);
   ASSERT_GT(bench.speed(), 0.1);
@@ -119,7 +119,7 @@ TEST(DeadlinePlant, locks_by_its_brake) {
   EXPECT_EQ(map_of(bench.plant().psi()), stand);
 }
 
-TEST(DeadlinePlant, goes_its_way_when_commands_come_late_and_doubled) {
+TEST(DeadlinePlant, GoesItsWayWhenCommandsComeLateAndDoubled) {
   Bench bench;
   bench.live(10);
   const std::vector<double> more = {1, 2, 3}, old = {9, 9, 9};

@@ -103,9 +103,9 @@ IkOutcome follow(InverseKinematics& ik, double e, const std::mt19937_64& random,
   for (double way = 0.3; way > e + 1e-10; way /= 2) {
     std::mt19937_64 same = random;
     const IkOutcome outcome = ik.position(target(e + way, same).point, 0, psi);
-    if (outcome != IkOutcome::kSolved) return outcome;
+    if (outcome != IkOutcome::solved) return outcome;
   }
-  return IkOutcome::kSolved;
+  return IkOutcome::solved;
 }
 
 void search_hand(const std::string& name, InverseKinematics::Method method, double bound) {
@@ -120,11 +120,11 @@ void search_hand(const std::string& name, InverseKinematics::Method method, doub
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
     const double e = seed % 8 == 0 ? 0 : log_uniform(random, 1e-9, 0.1);
     Vector psi = Eigen::Map<const Vector>(scene->home.data(), 3);
-    IkOutcome outcome = IkOutcome::kSolved;
-    if (method == InverseKinematics::Method::kNewton) outcome = follow(ik, e, random, psi);
+    IkOutcome outcome = IkOutcome::solved;
+    if (method == InverseKinematics::Method::newton) outcome = follow(ik, e, random, psi);
     const Target wanted = target(e, random);
-    if (outcome == IkOutcome::kSolved) outcome = ik.position(wanted.point, 0, psi);
-    if (outcome != IkOutcome::kSolved) {
+    if (outcome == IkOutcome::solved) outcome = ik.position(wanted.point, 0, psi);
+    if (outcome != IkOutcome::solved) {
       ++refused;
       continue;
     }
@@ -136,10 +136,10 @@ void search_hand(const std::string& name, InverseKinematics::Method method, doub
 }
 
 TEST(NearFlatElbow, TheClosedFormsHandIsWhereItWasAskedForOrRefused) {
-  search_hand("near_flat_elbow", InverseKinematics::Method::kClosedFormIfKnown, kMostMiss);
+  search_hand("near_flat_elbow", InverseKinematics::Method::closed_form_if_known, kMostMiss);
 }
 TEST(NearFlatElbowNewton, TheSearchsHandIsWhereItWasAskedForOrRefused) {
-  search_hand("near_flat_elbow_newton", InverseKinematics::Method::kNewton, kMostMissOfSearch);
+  search_hand("near_flat_elbow_newton", InverseKinematics::Method::newton, kMostMissOfSearch);
 }
 
 // The elbow's own angle is lost by its condition number, 1/e: R = 2 L cos(e/2), so a relative error d of R (a
@@ -156,7 +156,7 @@ TEST(ElbowAngle, LosesNoMoreThanOneOverItself) {
     const double e = log_uniform(random, 1e-9, 0.5);
     const Target wanted = target(e, random);
     Vector psi = Eigen::Map<const Vector>(scene->home.data(), 3);
-    if (ik.position(wanted.point, 0, psi) != IkOutcome::kSolved) continue;
+    if (ik.position(wanted.point, 0, psi) != IkOutcome::solved) continue;
     const double found = elbow_of(psi), exact = wanted.elbow < 0 ? 0 : static_cast<double>(wanted.elbow);
     // psi's own rounding turns the elbow by up to 30 eps, whatever the elbow is.
     const double off = std::max(0.0, std::abs(found - exact) - 30 * kEps);

@@ -147,8 +147,8 @@ TEST(LoadScene, LinearMotorsAreDeclared) {
       "motors: {lift: linear, turn: rotary}\ncoordinates: [z, q]\nconstraints: {z: lift, q: turn / 2}\n"
       "transforms: [{from: 0, to: 1, s: z}, {from: 1, to: 2, theta: q}]\n"
       "bodies: [{frame: 2, mass: 1}]\nend_effector: {frame: 2}\nhome: {lift: 10 cm}\n");
-  EXPECT_TRUE(scene.motors[0].linear);
-  EXPECT_FALSE(scene.motors[1].linear);
+  EXPECT_TRUE(scene.motors()[0].linear);
+  EXPECT_FALSE(scene.motors()[1].linear);
   EXPECT_TRUE(scene.transforms[0].prismatic);
   EXPECT_EQ(scene.home, (std::vector<double>{0.1, 0}));
 }

@@ -32,7 +32,7 @@ Bytes as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-TEST(Bus, carries_bytes_on_the_channels_that_are_subscribed) {
+TEST(Bus, CarriesBytesOnTheChannelsThatAreSubscribed) {
   Bus bus({.prefix = "TEST_"});
   const StopSwitch never;
   Ear a, b;
@@ -49,7 +49,7 @@ TEST(Bus, carries_bytes_on_the_channels_that_are_subscribed) {
   EXPECT_EQ(bus.wait(now() + 20ms, never), Wake::deadline);
 }
 
-TEST(Bus, takes_a_subscription_back) {
+TEST(Bus, TakesASubscriptionBack) {
   Bus bus;
   const StopSwitch never;
   Ear a, b;
@@ -67,7 +67,7 @@ TEST(Bus, takes_a_subscription_back) {
   EXPECT_EQ(b.heard, std::vector<std::string>{"again"});
 }
 
-TEST(Bus, hears_several_buses_in_one_process) {
+TEST(Bus, HearsSeveralBusesInOneProcess) {
   Bus one, two;
   const StopSwitch never;
   Ear a, b;
@@ -80,7 +80,7 @@ TEST(Bus, hears_several_buses_in_one_process) {
   EXPECT_EQ(a.heard.size() + b.heard.size(), 2U);
 }
 
-TEST(Bus, keeps_its_deadline) {
+TEST(Bus, KeepsItsDeadline) {
   Bus bus;
   const StopSwitch never;
   bus.subscribe(
@@ -91,7 +91,7 @@ TEST(Bus, keeps_its_deadline) {
   EXPECT_EQ(bus.wait(before, never), Wake::deadline) << "one that is over";
 }
 
-TEST(Bus, wakes_when_the_switch_is_turned) {
+TEST(Bus, WakesWhenTheSwitchIsTurned) {
   Bus bus;
   StopSwitch stop;
   bus.subscribe(
@@ -108,7 +108,7 @@ TEST(Bus, wakes_when_the_switch_is_turned) {
   EXPECT_EQ(bus.wait(now() + 10s, stop), Wake::stop) << "it stays turned";
 }
 
-TEST(StopSwitch, is_turned_by_sigterm_and_lets_go_of_it) {
+TEST(StopSwitch, IsTurnedBySigtermAndLetsGoOfIt) {
   {
     StopSwitch stop;
     stop.turn_on_signals();
@@ -134,7 +134,7 @@ void send_datagram(const std::string& datagram) {
   close(fd);
 }
 
-TEST(Bus, survives_datagrams_that_are_no_messages) {
+TEST(Bus, SurvivesDatagramsThatAreNoMessages) {
   Bus bus;
   const StopSwitch never;
   Ear ear;
@@ -159,7 +159,7 @@ std::string fault_of(const std::string& url) {
   }
 }
 
-TEST(Bus, refuses_a_bad_url_and_says_what_it_expects) {
+TEST(Bus, RefusesABadUrlAndSaysWhatItExpects) {
   for (const char* url : {"", "tcpq://", "udpm://", "udpm://239.255.76.67", "udpm://10.0.0.1:7667",
                           "udpm://x:1", "udpm://239.255.76.67:70000", "udpm://239.255.76.67:76x"}) {
     EXPECT_THAT(fault_of(url), testing::StartsWith("bus_url: ")) << url;
@@ -167,7 +167,7 @@ TEST(Bus, refuses_a_bad_url_and_says_what_it_expects) {
   }
 }
 
-TEST(Bus, says_how_to_mend_a_missing_multicast_route) {
+TEST(Bus, SaysHowToMendAMissingMulticastRoute) {
   // In a child, in a network namespace that has no route at all.
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);

@@ -41,7 +41,7 @@ class ChannelFilter : public testing::Test {
   sockaddr_in to_{};
 };
 
-TEST_F(ChannelFilter, keeps_subscribed_channels_only) {
+TEST_F(ChannelFilter, KeepsSubscribedChannelsOnly) {
   const std::string channels[] = {"MIXLOOP_STATE", "MIXLOOP_STOP", "A", "AB", "ABC", "ABCD"};
   ASSERT_TRUE(attach(receiver_, channel_filter(channels)));
   for (const std::string& channel : channels) {
@@ -56,7 +56,7 @@ TEST_F(ChannelFilter, keeps_subscribed_channels_only) {
   EXPECT_FALSE(passes(message("")));
 }
 
-TEST_F(ChannelFilter, drops_what_is_no_short_message) {
+TEST_F(ChannelFilter, DropsWhatIsNoShortMessage) {
   const std::string channels[] = {"STATE"};
   ASSERT_TRUE(attach(receiver_, channel_filter(channels)));
   EXPECT_FALSE(passes(""));
@@ -66,7 +66,7 @@ TEST_F(ChannelFilter, drops_what_is_no_short_message) {
   EXPECT_FALSE(passes(fragment));
 }
 
-TEST_F(ChannelFilter, finds_the_socket_on_a_port) {
+TEST_F(ChannelFilter, FindsTheSocketOnAPort) {
   EXPECT_EQ(sockets_on_port(ntohs(to_.sin_port)), std::vector<int>{receiver_});
   EXPECT_TRUE(sockets_on_port(1).empty());
 }

@@ -28,7 +28,7 @@ Outbox<state_t> some_state(int n = kN) {
   return outbox;
 }
 
-TEST(Wire, brings_back_what_was_sent) {
+TEST(Wire, BringsBackWhatWasSent) {
   Outbox<state_t> sent = some_state();
   Inbox<state_t> inbox(kN);
   ASSERT_EQ(inbox.read(sent.encode()), std::nullopt);
@@ -47,7 +47,7 @@ class EveryMessage : public testing::Test {};
 using Messages = testing::Types<state_t, reference_t, command_t, truth_t, sim_control_t>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
-TYPED_TEST(EveryMessage, begins_with_the_header_and_is_read_again) {
+TYPED_TEST(EveryMessage, BeginsWithTheHeaderAndIsReadAgain) {
   Outbox<TypeParam> outbox(kN);
   set_header(outbox.message, {.n = kN, .utime = 11, .seq = 12, .session = -13, .config = 14});
   const auto header = peek(outbox.encode());
@@ -61,7 +61,7 @@ TYPED_TEST(EveryMessage, begins_with_the_header_and_is_read_again) {
   EXPECT_EQ(inbox.read(outbox.encoded()), std::nullopt);
 }
 
-TYPED_TEST(EveryMessage, is_rejected_at_every_other_length) {
+TYPED_TEST(EveryMessage, IsRejectedAtEveryOtherLength) {
   Outbox<TypeParam> outbox(kN);
   auto bytes = copy(outbox.encode());
   Inbox<TypeParam> inbox(kN);
@@ -73,7 +73,7 @@ TYPED_TEST(EveryMessage, is_rejected_at_every_other_length) {
   EXPECT_EQ(inbox.read(bytes), Reject::length);
 }
 
-TYPED_TEST(EveryMessage, is_rejected_with_another_n_and_allocates_nothing_for_it) {
+TYPED_TEST(EveryMessage, IsRejectedWithAnotherNAndAllocatesNothingForIt) {
   Inbox<TypeParam> inbox(kN);
   Outbox<TypeParam> outbox(kN);
   auto bytes = copy(outbox.encode());
@@ -87,14 +87,14 @@ TYPED_TEST(EveryMessage, is_rejected_with_another_n_and_allocates_nothing_for_it
   }
 }
 
-TYPED_TEST(EveryMessage, is_rejected_with_another_fingerprint) {
+TYPED_TEST(EveryMessage, IsRejectedWithAnotherFingerprint) {
   Outbox<TypeParam> outbox(kN);
   auto bytes = copy(outbox.encode());
   bytes[3] ^= 1;
   EXPECT_EQ(Inbox<TypeParam>(kN).read(bytes), Reject::fingerprint);
 }
 
-TYPED_TEST(EveryMessage, survives_random_bytes) {
+TYPED_TEST(EveryMessage, SurvivesRandomBytes) {
   std::mt19937_64 random(3);
   Outbox<TypeParam> outbox(kN);
   const auto sound = copy(outbox.encode());
@@ -111,7 +111,7 @@ TYPED_TEST(EveryMessage, survives_random_bytes) {
   }
 }
 
-TEST(Wire, rejects_every_place_of_a_number_that_is_not_finite) {
+TEST(Wire, RejectsEveryPlaceOfANumberThatIsNotFinite) {
   Inbox<state_t> inbox(kN);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity()}) {
@@ -132,7 +132,7 @@ TEST(Wire, rejects_every_place_of_a_number_that_is_not_finite) {
   EXPECT_EQ(inbox.read(huge.encode()), std::nullopt) << "finite, if large";
 }
 
-TEST(Wire, allocates_nothing_after_construction) {
+TEST(Wire, AllocatesNothingAfterConstruction) {
   if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has malloc";
   Outbox<reference_t> outbox(kN);
   Inbox<reference_t> inbox(kN);
@@ -145,7 +145,7 @@ TEST(Wire, allocates_nothing_after_construction) {
   EXPECT_EQ(allocations.count(), 0U);
 }
 
-TEST(AllocationCounter, sees_every_kind_of_allocation) {
+TEST(AllocationCounter, SeesEveryKindOfAllocation) {
   if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has malloc";
   const AllocationCounter allocations;
   std::vector<double> vector(10);
@@ -155,7 +155,7 @@ TEST(AllocationCounter, sees_every_kind_of_allocation) {
   EXPECT_NE(allocations.first_caller(), nullptr);
 }
 
-TEST(Rejects, are_counted_by_cause) {
+TEST(Rejects, AreCountedByCause) {
   Rejects rejects;
   for (int i = 0; i <= static_cast<int>(Reject::stale); ++i) {
     rejects.count(static_cast<Reject>(i));

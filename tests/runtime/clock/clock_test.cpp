@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(Pacer, gives_ticks_on_a_grid_that_never_drifts) {
+TEST(Pacer, GivesTicksOnAGridThatNeverDrifts) {
   Pacer pacer(3000, 1);
   pacer.start(10s);
   EXPECT_EQ(pacer.due(1), 10s + 333333ns);
@@ -16,7 +16,7 @@ TEST(Pacer, gives_ticks_on_a_grid_that_never_drifts) {
   EXPECT_EQ(pacer.due(3'000'000'000), 10s + 1'000'000s);
 }
 
-TEST(Pacer, runs_at_a_multiple_of_real_time) {
+TEST(Pacer, RunsAtAMultipleOfRealTime) {
   Pacer pacer(1000, 0.5);
   pacer.start(0s);
   EXPECT_TRUE(pacer.paced());
@@ -24,7 +24,7 @@ TEST(Pacer, runs_at_a_multiple_of_real_time) {
   EXPECT_FALSE(Pacer(1000, 0).paced());
 }
 
-TEST(Pacer, catches_up_a_little_and_slips_by_much) {
+TEST(Pacer, CatchesUpALittleAndSlipsByMuch) {
   Pacer pacer(1000, 1, 10ms);
   pacer.start(0s);
   pacer.began(5, 5ms + 9ms);

@@ -12,14 +12,14 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-TEST(Histogram, of_nothing_says_zero) {
+TEST(Histogram, OfNothingSaysZero) {
   const Histogram h;
   EXPECT_EQ(h.count(), 0U);
   EXPECT_EQ(h.quantile(0.5).count(), 0);
   EXPECT_EQ(h.max().count(), 0);
 }
 
-TEST(Histogram, counts_small_durations_exactly) {
+TEST(Histogram, CountsSmallDurationsExactly) {
   Histogram h;
   for (int i = 1; i <= 60; ++i) h.add(nanoseconds(i));
   EXPECT_EQ(h.quantile(0.5).count(), 30);
@@ -27,7 +27,7 @@ TEST(Histogram, counts_small_durations_exactly) {
   EXPECT_EQ(h.quantile(0.0).count(), 1);
 }
 
-TEST(Histogram, takes_the_extremes_of_its_range) {
+TEST(Histogram, TakesTheExtremesOfItsRange) {
   Histogram h;
   h.add(nanoseconds(-5));  // a clock that steps back counts as zero
   h.add(nanoseconds::max());
@@ -36,7 +36,7 @@ TEST(Histogram, takes_the_extremes_of_its_range) {
   EXPECT_EQ(h.max(), nanoseconds::max());
 }
 
-TEST(Histogram, gives_quantiles_within_its_stated_relative_error) {
+TEST(Histogram, GivesQuantilesWithinItsStatedRelativeError) {
   std::mt19937_64 random(11);
   std::lognormal_distribution<double> distribution(11, 2);  // around 60 us, tails from us to s
   Histogram h;

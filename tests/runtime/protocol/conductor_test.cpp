@@ -20,7 +20,7 @@ std::optional<Reject> told(Conductor& conductor, std::int8_t action, std::int64_
   return conductor.hear(message.encode());
 }
 
-TEST(Conductor, lets_all_go_until_it_is_paused) {
+TEST(Conductor, LetsAllGoUntilItIsPaused) {
   Conductor conductor(kN, kSession, false);
   EXPECT_TRUE(conductor.lets_go());
   EXPECT_EQ(told(conductor, sim_control_t::ACTION_PAUSE), std::nullopt);
@@ -30,7 +30,7 @@ TEST(Conductor, lets_all_go_until_it_is_paused) {
   EXPECT_TRUE(conductor.lets_go());
 }
 
-TEST(Conductor, steps_as_many_ticks_as_are_asked_for) {
+TEST(Conductor, StepsAsManyTicksAsAreAskedFor) {
   Conductor conductor(kN, kSession, true);
   EXPECT_FALSE(conductor.lets_go());
   told(conductor, sim_control_t::ACTION_STEP, 2);
@@ -43,14 +43,14 @@ TEST(Conductor, steps_as_many_ticks_as_are_asked_for) {
   EXPECT_FALSE(conductor.lets_go()) << "steps outlived the pause";
 }
 
-TEST(Conductor, gives_a_new_speed_once) {
+TEST(Conductor, GivesANewSpeedOnce) {
   Conductor conductor(kN, kSession, false);
   told(conductor, sim_control_t::ACTION_SPEED, 0, 0.5);
   EXPECT_EQ(conductor.new_speed(), 0.5);
   EXPECT_EQ(conductor.new_speed(), std::nullopt);
 }
 
-TEST(Conductor, drops_what_is_not_for_it) {
+TEST(Conductor, DropsWhatIsNotForIt) {
   Conductor conductor(kN, kSession, false);
   EXPECT_EQ(told(conductor, sim_control_t::ACTION_PAUSE, 0, 0, kSession + 1), Reject::session);
   EXPECT_EQ(told(conductor, sim_control_t::ACTION_STEP, 0), Reject::tick);

@@ -6,13 +6,13 @@
 namespace mixloop {
 namespace {
 
-TEST(ConfigHash, packs_four_parts_in_their_order) {
+TEST(ConfigHash, PacksFourPartsInTheirOrder) {
   const ConfigHash hash{.rate = 0xfedc, .mechanism = 0x1234, .path = 0xabcd, .parameters = 0x0001};
   EXPECT_EQ(static_cast<std::uint64_t>(pack(hash)), 0xfedc1234abcd0001U);
   EXPECT_EQ(unpack_config(pack(hash)), hash);
 }
 
-TEST(ConfigHash, names_what_differs) {
+TEST(ConfigHash, NamesWhatDiffers) {
   const ConfigHash mine{.rate = 1, .mechanism = 2, .path = 3, .parameters = 4};
   const auto difference = [&mine](auto change) {
     ConfigHash theirs = mine;
@@ -27,7 +27,7 @@ TEST(ConfigHash, names_what_differs) {
             "rate, mechanism and path");
 }
 
-TEST(ConfigHash, takes_the_first_16_bits_of_sha_256) {
+TEST(ConfigHash, TakesTheFirst16BitsOfSha256) {
   EXPECT_EQ(hash16("abc"), 0xba78);  // FIPS 180-4's example: ba7816bf...
 }
 

@@ -72,7 +72,7 @@ class Plant : public testing::Test {
   std::optional<RunningPeer<LockstepPlant>> plant_;
 };
 
-TEST_F(Plant, runs_from_tick_0_to_the_last_and_ends_all) {
+TEST_F(Plant, RunsFromTick0ToTheLastAndEndsAll) {
   start(options(2));
   for (std::int64_t k = 0; k <= 2; ++k) {
     expect_state(k);
@@ -86,7 +86,7 @@ TEST_F(Plant, runs_from_tick_0_to_the_last_and_ends_all) {
   EXPECT_TRUE(script_.silent("TRUTH")) << "nobody asked for it";
 }
 
-TEST_F(Plant, repeats_the_state_while_no_command_comes) {
+TEST_F(Plant, RepeatsTheStateWhileNoCommandComes) {
   start(options(1));
   const auto first = script_.next_bytes("STATE");
   EXPECT_EQ(script_.next_bytes("STATE"), first);
@@ -99,7 +99,7 @@ TEST_F(Plant, repeats_the_state_while_no_command_comes) {
   EXPECT_GE(plant_->peer.report().resent, 1U);
 }
 
-TEST_F(Plant, takes_only_the_command_that_answers_its_tick) {
+TEST_F(Plant, TakesOnlyTheCommandThatAnswersItsTick) {
   start(options(1));
   expect_state(0);
   const auto spoil = [this](std::int64_t tick, auto change) {
@@ -132,7 +132,7 @@ TEST_F(Plant, takes_only_the_command_that_answers_its_tick) {
   EXPECT_EQ(r.config, 1U);
 }
 
-TEST_F(Plant, refuses_a_controller_that_was_started_with_something_else_by_name) {
+TEST_F(Plant, RefusesAControllerThatWasStartedWithSomethingElseByName) {
   start(options(1));
   expect_state(0);
   auto c = command(0);
@@ -144,7 +144,7 @@ TEST_F(Plant, refuses_a_controller_that_was_started_with_something_else_by_name)
   expect_end(sim_control_t::REASON_FAULT, 0);
 }
 
-TEST_F(Plant, publishes_the_truth_of_every_tick_when_asked) {
+TEST_F(Plant, PublishesTheTruthOfEveryTickWhenAsked) {
   PlantOptions o = options(1);
   o.truth = true;
   start(o);
@@ -160,7 +160,7 @@ TEST_F(Plant, publishes_the_truth_of_every_tick_when_asked) {
   }
 }
 
-TEST_F(Plant, says_at_which_tick_a_reading_is_stale) {
+TEST_F(Plant, SaysAtWhichTickAReadingIsStale) {
   stale_at_ = 1;
   start(options(2));
   for (std::int64_t k = 0; k <= 2; ++k) {
@@ -172,7 +172,7 @@ TEST_F(Plant, says_at_which_tick_a_reading_is_stale) {
   EXPECT_EQ(plant_->ending(), Ending::finished);
 }
 
-TEST_F(Plant, publishes_nothing_of_the_tick_that_diverges) {
+TEST_F(Plant, PublishesNothingOfTheTickThatDiverges) {
   breaks_at_ = 1;
   start(options(9));
   expect_state(0);
@@ -186,7 +186,7 @@ TEST_F(Plant, publishes_nothing_of_the_tick_that_diverges) {
     EXPECT_LE(s->seq, 1);
 }
 
-TEST_F(Plant, names_the_channel_that_it_waited_for_in_vain) {
+TEST_F(Plant, NamesTheChannelThatItWaitedForInVain) {
   PlantOptions o = options(1);
   o.patience = 100ms;
   start(o);
@@ -198,7 +198,7 @@ TEST_F(Plant, names_the_channel_that_it_waited_for_in_vain) {
   expect_end(sim_control_t::REASON_FAULT, 0);
 }
 
-TEST_F(Plant, says_that_the_controller_is_missing_where_the_planner_answers) {
+TEST_F(Plant, SaysThatTheControllerIsMissingWhereThePlannerAnswers) {
   PlantOptions o = options(1);
   o.first_wait = 1200ms;
   start(o);
@@ -209,7 +209,7 @@ TEST_F(Plant, says_that_the_controller_is_missing_where_the_planner_answers) {
   EXPECT_THAT(plant_->fault(), HasSubstr("MIXLOOP_REFERENCE answers, so the controller is missing"));
 }
 
-TEST_F(Plant, honours_a_stop_from_anyone_even_a_malformed_one) {
+TEST_F(Plant, HonoursAStopFromAnyoneEvenAMalformedOne) {
   start(options(9));
   expect_state(0);
   script_.bus.publish(script_.bus.channel("STOP"), {});
@@ -217,7 +217,7 @@ TEST_F(Plant, honours_a_stop_from_anyone_even_a_malformed_one) {
   expect_end(sim_control_t::REASON_STOPPED, 0);
 }
 
-TEST_F(Plant, ends_all_when_interrupted) {
+TEST_F(Plant, EndsAllWhenInterrupted) {
   start(options(9));
   expect_state(0);
   plant_->stop.turn();
@@ -225,7 +225,7 @@ TEST_F(Plant, ends_all_when_interrupted) {
   expect_end(sim_control_t::REASON_INTERRUPTED, 0);
 }
 
-TEST_F(Plant, that_holds_goes_on_past_the_last_tick_and_has_finished_when_stopped) {
+TEST_F(Plant, ThatHoldsGoesOnPastTheLastTickAndHasFinishedWhenStopped) {
   PlantOptions o = options(0);
   o.hold = true;
   start(o);
@@ -239,7 +239,7 @@ TEST_F(Plant, that_holds_goes_on_past_the_last_tick_and_has_finished_when_stoppe
   EXPECT_EQ(plant_->ending(), Ending::finished);
 }
 
-TEST_F(Plant, keeps_to_the_pace_that_it_is_given) {
+TEST_F(Plant, KeepsToThePaceThatItIsGiven) {
   PlantOptions o = options(20);
   o.speed = 1;
   plant_.emplace(o, side());

@@ -67,7 +67,7 @@ void wait_for_tick(std::int64_t tick) {
 
 class StartOrder : public testing::TestWithParam<std::vector<std::string>> {};
 
-TEST_P(StartOrder, doesnt_change_what_the_plant_is_told) {
+TEST_P(StartOrder, DoesntChangeWhatThePlantIsTold) {
   std::vector<Started> children;
   for (const std::string& role : GetParam()) {
     children.push_back(start(role));
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(AllSix, StartOrder, testing::ValuesIn(all_orders()), []
 
 class BadNetwork : public testing::TestWithParam<int> {};
 
-TEST_P(BadNetwork, loses_doubles_and_reorders_datagrams_without_changing_a_command) {
+TEST_P(BadNetwork, LosesDoublesAndReordersDatagramsWithoutChangingACommand) {
   std::vector<Started> children;
   int seed = 100 * GetParam();
   for (const std::string& role : kRoles) children.push_back(start(role, kTicks, bad_network(++seed)));
@@ -101,7 +101,7 @@ TEST_P(BadNetwork, loses_doubles_and_reorders_datagrams_without_changing_a_comma
 
 INSTANTIATE_TEST_SUITE_P(Seeds, BadNetwork, testing::Values(1, 2, 3));
 
-TEST(Lockstep, survives_processes_that_are_stopped_and_continued) {
+TEST(Lockstep, SurvivesProcessesThatAreStoppedAndContinued) {
   std::vector<Started> children;
   // Paced, so that the run lasts long enough to be disturbed: 0.5 s.
   for (const std::string& role : kRoles) children.push_back(start(role, kTicks, {}, {"0", "2"}));
@@ -183,7 +183,7 @@ class Stranger {
   std::mt19937_64 random_{5};
 };
 
-TEST(Lockstep, isnt_disturbed_by_strangers) {
+TEST(Lockstep, IsntDisturbedByStrangers) {
   std::vector<Started> children;
   for (const std::string& role : kRoles) children.push_back(start(role, kTicks, {}, {"42", "2"}));
   Stranger stranger;
@@ -192,7 +192,7 @@ TEST(Lockstep, isnt_disturbed_by_strangers) {
   for (const std::string& role : kRoles) EXPECT_GT(reports[role].value("rejected", 0), 50) << role;
 }
 
-TEST(Lockstep, allocates_nothing_per_tick_in_any_of_the_three) {
+TEST(Lockstep, AllocatesNothingPerTickInAnyOfTheThree) {
   if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has malloc";
   std::vector<Started> children;
   for (const std::string& role : kRoles) children.push_back(start(role));
@@ -202,7 +202,7 @@ TEST(Lockstep, allocates_nothing_per_tick_in_any_of_the_three) {
         << role << " first by " << reports[role]["allocated_by"];
 }
 
-TEST(Lockstep, ends_everywhere_when_the_plant_is_interrupted) {
+TEST(Lockstep, EndsEverywhereWhenThePlantIsInterrupted) {
   std::vector<Started> children;
   for (const std::string& role : kRoles) children.push_back(start(role, 1'000'000, {}, {"0", "1"}));
   wait_for_tick(100);
@@ -212,7 +212,7 @@ TEST(Lockstep, ends_everywhere_when_the_plant_is_interrupted) {
   EXPECT_EQ(finish(*children[2], "planner").value("ending", ""), "interrupted");
 }
 
-TEST(Lockstep, goes_on_with_a_controller_that_replaces_a_killed_one) {
+TEST(Lockstep, GoesOnWithAControllerThatReplacesAKilledOne) {
   std::vector<Started> children;
   for (const std::string& role : kRoles) children.push_back(start(role, kTicks, {}, {"0", "1"}));
   wait_for_tick(100);

@@ -54,7 +54,7 @@ class Controller : public testing::Test {
   std::optional<RunningPeer<ControllerPeer>> peer_;
 };
 
-TEST_F(Controller, answers_when_state_and_reference_of_the_tick_are_there) {
+TEST_F(Controller, AnswersWhenStateAndReferenceOfTheTickAreThere) {
   start();
   script_.send_state(0);
   EXPECT_TRUE(script_.silent("COMMAND")) << "no reference yet";
@@ -67,7 +67,7 @@ TEST_F(Controller, answers_when_state_and_reference_of_the_tick_are_there) {
   EXPECT_EQ(report().answered, 2U);
 }
 
-TEST_F(Controller, repeats_the_same_bytes_for_a_repeated_state) {
+TEST_F(Controller, RepeatsTheSameBytesForARepeatedState) {
   start();
   script_.send_state(0);
   script_.send_reference(0, 10);
@@ -79,7 +79,7 @@ TEST_F(Controller, repeats_the_same_bytes_for_a_repeated_state) {
   EXPECT_EQ(report().repeated, 1U);
 }
 
-TEST_F(Controller, drops_and_counts_what_is_over) {
+TEST_F(Controller, DropsAndCountsWhatIsOver) {
   start();
   script_.send_state(0);
   script_.send_reference(0);
@@ -93,7 +93,7 @@ TEST_F(Controller, drops_and_counts_what_is_over) {
   EXPECT_EQ(report().rejects.stale, 2U);
 }
 
-TEST_F(Controller, rejects_by_cause_and_goes_on) {
+TEST_F(Controller, RejectsByCauseAndGoesOn) {
   start();
   script_.send_state(0);
   script_.send_reference(0);
@@ -129,7 +129,7 @@ TEST_F(Controller, rejects_by_cause_and_goes_on) {
   EXPECT_EQ(r.length, 1U);
 }
 
-TEST_F(Controller, with_a_given_session_takes_references_before_the_first_state) {
+TEST_F(Controller, WithAGivenSessionTakesReferencesBeforeTheFirstState) {
   PeerOptions options = kOptions;
   options.session = kScriptSession;
   start(options);
@@ -138,7 +138,7 @@ TEST_F(Controller, with_a_given_session_takes_references_before_the_first_state)
   expect_command(0, 10);
 }
 
-TEST_F(Controller, of_another_session_than_the_given_one_stays_silent) {
+TEST_F(Controller, OfAnotherSessionThanTheGivenOneStaysSilent) {
   PeerOptions options = kOptions;
   options.session = 5;
   start(options);
@@ -147,7 +147,7 @@ TEST_F(Controller, of_another_session_than_the_given_one_stays_silent) {
   EXPECT_TRUE(script_.silent("COMMAND"));
 }
 
-TEST_F(Controller, takes_a_new_session_after_a_second_and_forgets_the_old_ones_ticks) {
+TEST_F(Controller, TakesANewSessionAfterASecondAndForgetsTheOldOnesTicks) {
   start();
   script_.send_state(5);
   script_.send_reference(5, 5);
@@ -175,7 +175,7 @@ TEST_F(Controller, takes_a_new_session_after_a_second_and_forgets_the_old_ones_t
   EXPECT_EQ(c->tau_commanded[0], 0);
 }
 
-TEST_F(Controller, that_joins_late_says_so) {
+TEST_F(Controller, ThatJoinsLateSaysSo) {
   start();
   script_.send_state(7);
   script_.send_reference(7, 1);
@@ -185,7 +185,7 @@ TEST_F(Controller, that_joins_late_says_so) {
   EXPECT_TRUE(report().joined_late);
 }
 
-TEST_F(Controller, with_memory_refuses_to_join_late) {
+TEST_F(Controller, WithMemoryRefusesToJoinLate) {
   ControllerSide side = telling_law();
   side.has_memory = true;
   start(kOptions, side);
@@ -193,7 +193,7 @@ TEST_F(Controller, with_memory_refuses_to_join_late) {
   EXPECT_THAT(peer_->fault(), StartsWith("joined_late: "));
 }
 
-TEST_F(Controller, refuses_a_plant_that_was_started_with_something_else_by_name) {
+TEST_F(Controller, RefusesAPlantThatWasStartedWithSomethingElseByName) {
   start();
   auto state = ScriptedPeer::message<state_t>(0);
   state.config ^= 1LL << 16;
@@ -203,7 +203,7 @@ TEST_F(Controller, refuses_a_plant_that_was_started_with_something_else_by_name)
   EXPECT_THAT(fault, HasSubstr("another path"));
 }
 
-TEST_F(Controller, is_not_ended_by_single_damaged_messages_before_a_good_one) {
+TEST_F(Controller, IsNotEndedBySingleDamagedMessagesBeforeAGoodOne) {
   start();
   for (int i = 0; i < 20; ++i) {
     auto state = ScriptedPeer::message<state_t>(0);
@@ -216,7 +216,7 @@ TEST_F(Controller, is_not_ended_by_single_damaged_messages_before_a_good_one) {
   EXPECT_EQ(report().rejects.config, 20U);
 }
 
-TEST_F(Controller, does_not_believe_in_ticks_that_no_plant_reaches) {
+TEST_F(Controller, DoesNotBelieveInTicksThatNoPlantReaches) {
   start();
   auto state = ScriptedPeer::message<state_t>(0);
   state.seq = std::numeric_limits<std::int64_t>::max();
@@ -228,7 +228,7 @@ TEST_F(Controller, does_not_believe_in_ticks_that_no_plant_reaches) {
   EXPECT_EQ(report().rejects.tick, 1U);
 }
 
-TEST_F(Controller, refuses_a_planner_that_was_started_with_something_else_by_name) {
+TEST_F(Controller, RefusesAPlannerThatWasStartedWithSomethingElseByName) {
   PeerOptions options = kOptions;
   options.session = kScriptSession;
   start(options);
@@ -238,7 +238,7 @@ TEST_F(Controller, refuses_a_planner_that_was_started_with_something_else_by_nam
   EXPECT_THAT(peer_->fault(), HasSubstr("another rate"));
 }
 
-TEST_F(Controller, never_sends_a_torque_that_is_no_number) {
+TEST_F(Controller, NeverSendsATorqueThatIsNoNumber) {
   ControllerSide side;
   side.compute = [](const state_t&, const reference_t&, std::int64_t, std::span<double> tau) {
     tau[2] = std::nan("");
@@ -251,7 +251,7 @@ TEST_F(Controller, never_sends_a_torque_that_is_no_number) {
   EXPECT_TRUE(script_.silent("COMMAND"));
 }
 
-TEST_F(Controller, names_the_plant_when_it_is_lost) {
+TEST_F(Controller, NamesThePlantWhenItIsLost) {
   PeerOptions options = kOptions;
   options.patience = 50ms;
   start(options);
@@ -261,14 +261,14 @@ TEST_F(Controller, names_the_plant_when_it_is_lost) {
   EXPECT_THAT(fault, HasSubstr("MIXLOOP_STATE for 50 ms after tick 0"));
 }
 
-TEST_F(Controller, names_a_plant_that_never_came) {
+TEST_F(Controller, NamesAPlantThatNeverCame) {
   PeerOptions options = kOptions;
   options.first_wait = 20ms;
   start(options);
   EXPECT_THAT(peer_->fault(), HasSubstr("nothing on MIXLOOP_STATE for 20 ms"));
 }
 
-TEST_F(Controller, names_the_planner_when_only_that_is_lost) {
+TEST_F(Controller, NamesThePlannerWhenOnlyThatIsLost) {
   PeerOptions options = kOptions;
   options.patience = 500ms;
   start(options);
@@ -282,7 +282,7 @@ TEST_F(Controller, names_the_planner_when_only_that_is_lost) {
   EXPECT_THAT(peer_->fault(), HasSubstr("no reference for tick 1 on MIXLOOP_REFERENCE"));
 }
 
-TEST_F(Controller, takes_silence_after_the_last_tick_for_the_end) {
+TEST_F(Controller, TakesSilenceAfterTheLastTickForTheEnd) {
   PeerOptions options = kOptions;
   options.last_tick = 0;
   options.patience = 50ms;
@@ -292,7 +292,7 @@ TEST_F(Controller, takes_silence_after_the_last_tick_for_the_end) {
   EXPECT_EQ(peer_->ending(), Ending::finished);
 }
 
-TEST_F(Controller, answers_past_the_last_tick_where_the_plant_holds) {
+TEST_F(Controller, AnswersPastTheLastTickWhereThePlantHolds) {
   PeerOptions options = kOptions;
   options.session = kScriptSession;
   options.last_tick = 3;
@@ -304,7 +304,7 @@ TEST_F(Controller, answers_past_the_last_tick_where_the_plant_holds) {
   expect_command(4, 4);
 }
 
-TEST_F(Controller, answers_at_ticks_past_2_to_the_40) {
+TEST_F(Controller, AnswersAtTicksPast2ToThe40) {
   PeerOptions options = kOptions;
   options.session = kScriptSession;
   start(options);
@@ -317,7 +317,7 @@ TEST_F(Controller, answers_at_ticks_past_2_to_the_40) {
   }
 }
 
-TEST_F(Controller, honours_a_stop_from_anyone_even_a_malformed_one) {
+TEST_F(Controller, HonoursAStopFromAnyoneEvenAMalformedOne) {
   start();
   script_.send_state(0);
   const std::uint8_t nonsense[] = {1, 2, 3};
@@ -325,7 +325,7 @@ TEST_F(Controller, honours_a_stop_from_anyone_even_a_malformed_one) {
   EXPECT_EQ(peer_->ending(), Ending::stopped);
 }
 
-TEST_F(Controller, leaves_when_its_switch_is_turned) {
+TEST_F(Controller, LeavesWhenItsSwitchIsTurned) {
   start();
   peer_->stop.turn();
   EXPECT_EQ(peer_->ending(), Ending::interrupted);
@@ -354,7 +354,7 @@ class Planner : public testing::Test {
   std::optional<RunningPeer<PlannerPeer>> peer_;
 };
 
-TEST_F(Planner, stays_one_tick_ahead) {
+TEST_F(Planner, StaysOneTickAhead) {
   start();
   script_.send_state(0);
   expect_references({0, 1});
@@ -362,7 +362,7 @@ TEST_F(Planner, stays_one_tick_ahead) {
   expect_references({2});
 }
 
-TEST_F(Planner, sends_both_for_a_repeated_and_for_a_skipped_tick) {
+TEST_F(Planner, SendsBothForARepeatedAndForASkippedTick) {
   start();
   script_.send_state(0);
   script_.send_state(0);
@@ -378,7 +378,7 @@ TEST_F(Planner, sends_both_for_a_repeated_and_for_a_skipped_tick) {
   EXPECT_EQ(peer_->peer.report().rejects.stale, 1U);
 }
 
-TEST_F(Planner, goes_on_past_tick_2_to_the_40_to_the_microsecond) {
+TEST_F(Planner, GoesOnPastTick2ToThe40ToTheMicrosecond) {
   start();
   auto state = ScriptedPeer::message<state_t>((std::int64_t{1} << 40) + 1);
   state.flags = state_t::FLAG_HOLD;
@@ -386,7 +386,7 @@ TEST_F(Planner, goes_on_past_tick_2_to_the_40_to_the_microsecond) {
   expect_references({state.seq, state.seq + 1});
 }
 
-TEST_F(Planner, that_joins_late_sends_both) {
+TEST_F(Planner, ThatJoinsLateSendsBoth) {
   start();
   script_.send_state(8);
   expect_references({8, 9});

@@ -49,7 +49,7 @@ class RealTimeController : public testing::Test {
   std::optional<RunningPeer<ControllerPeer>> peer_;
 };
 
-TEST_F(RealTimeController, answers_as_in_lockstep_where_all_is_there) {
+TEST_F(RealTimeController, AnswersAsInLockstepWhereAllIsThere) {
   script_.send_reference(0, 5);
   send_state(0);
   const command_t c = command(0);
@@ -57,14 +57,14 @@ TEST_F(RealTimeController, answers_as_in_lockstep_where_all_is_there) {
   EXPECT_EQ(c.flags, 0);
 }
 
-TEST_F(RealTimeController, waits_at_tick_0_for_its_reference) {
+TEST_F(RealTimeController, WaitsAtTick0ForItsReference) {
   send_state(0);
   EXPECT_FALSE(script_.next<command_t>("COMMAND", 200ms)) << "10 ticks";
   script_.send_reference(0, 5);
   EXPECT_EQ(command(0).tau_commanded[0], 5);
 }
 
-TEST_F(RealTimeController, has_a_missing_reference_extrapolated_for_some_ticks) {
+TEST_F(RealTimeController, HasAMissingReferenceExtrapolatedForSomeTicks) {
   script_.send_reference(0, 5);
   send_state(0);
   command(0);
@@ -88,7 +88,7 @@ TEST_F(RealTimeController, has_a_missing_reference_extrapolated_for_some_ticks) 
   EXPECT_EQ(again.tau_commanded[0], 8);
 }
 
-TEST_F(RealTimeController, sends_one_safe_command_where_the_plant_falls_silent) {
+TEST_F(RealTimeController, SendsOneSafeCommandWhereThePlantFallsSilent) {
   script_.send_reference(0, 5);
   send_state(0);
   const command_t own = command(0);
@@ -104,7 +104,7 @@ TEST_F(RealTimeController, sends_one_safe_command_where_the_plant_falls_silent) 
   EXPECT_EQ(again.flags, own.flags);
 }
 
-TEST_F(RealTimeController, sends_a_safe_command_on_stop_and_leaves) {
+TEST_F(RealTimeController, SendsASafeCommandOnStopAndLeaves) {
   script_.send_reference(0, 5);
   send_state(0);
   command(0);
@@ -114,7 +114,7 @@ TEST_F(RealTimeController, sends_a_safe_command_on_stop_and_leaves) {
   EXPECT_EQ(peer_->ending(), Ending::stopped);
 }
 
-TEST_F(RealTimeController, follows_the_plant_into_its_next_session) {
+TEST_F(RealTimeController, FollowsThePlantIntoItsNextSession) {
   script_.send_reference(0, 5);
   send_state(0);
   command(0);

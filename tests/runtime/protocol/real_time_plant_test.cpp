@@ -82,7 +82,7 @@ class RealTime : public testing::Test {
   std::optional<RunningPeer<RealTimePlant>> plant_;
 };
 
-TEST_F(RealTime, waits_for_the_first_command_and_for_no_other) {
+TEST_F(RealTime, WaitsForTheFirstCommandAndForNoOther) {
   start(options(8));
   std::this_thread::sleep_for(50ms);
   EXPECT_EQ(state(0).flags, state_t::FLAG_REAL_TIME);
@@ -97,7 +97,7 @@ TEST_F(RealTime, waits_for_the_first_command_and_for_no_other) {
   EXPECT_EQ(plant_->peer.report().wake_up.count(), 9U);
 }
 
-TEST_F(RealTime, says_when_in_its_tick_a_command_arrived) {
+TEST_F(RealTime, SaysWhenInItsTickACommandArrived) {
   start(options(3));
   state(0);
   send_command(0, 1);
@@ -120,7 +120,7 @@ TEST_F(RealTime, says_when_in_its_tick_a_command_arrived) {
   EXPECT_EQ(plant_->peer.report().round_trip.count(), 3U);
 }
 
-TEST_F(RealTime, counts_offsets_in_plant_time) {
+TEST_F(RealTime, CountsOffsetsInPlantTime) {
   PlantOptions o = options(1);
   o.speed = 0.5;
   start(o);
@@ -134,7 +134,7 @@ TEST_F(RealTime, counts_offsets_in_plant_time) {
   EXPECT_GE(taken_[1].offset, 2'000'000) << "4 ms of real time";
 }
 
-TEST_F(RealTime, takes_a_late_command_unless_a_newer_one_came_or_it_is_too_old) {
+TEST_F(RealTime, TakesALateCommandUnlessANewerOneCameOrItIsTooOld) {
   start(options(12));
   state(0);
   send_command(0);
@@ -156,7 +156,7 @@ TEST_F(RealTime, takes_a_late_command_unless_a_newer_one_came_or_it_is_too_old) 
   EXPECT_EQ(plant_->peer.report().rejects.tick, 1U);
 }
 
-TEST_F(RealTime, goes_into_its_safe_state_where_the_controller_keeps_sending_safe_commands) {
+TEST_F(RealTime, GoesIntoItsSafeStateWhereTheControllerKeepsSendingSafeCommands) {
   start(options(8));
   for (std::int64_t k = 0; k <= 8; ++k) {
     const bool safe = (state(k).flags & state_t::FLAG_SAFE_STATE) != 0;
@@ -167,7 +167,7 @@ TEST_F(RealTime, goes_into_its_safe_state_where_the_controller_keeps_sending_saf
   EXPECT_THAT(safe_, HasSubstr("controller"));
 }
 
-TEST_F(RealTime, is_paused_and_stepped_and_goes_on) {
+TEST_F(RealTime, IsPausedAndSteppedAndGoesOn) {
   PlantOptions o = options(6);
   o.paused = true;
   start(o);
@@ -188,7 +188,7 @@ TEST_F(RealTime, is_paused_and_stepped_and_goes_on) {
 
 // Its controller's answer to the last tick before a pause was late; what it sends while nobody waits isn't
 // taken.
-TEST_F(RealTime, takes_a_command_that_comes_in_a_pause_into_the_next_tick) {
+TEST_F(RealTime, TakesACommandThatComesInAPauseIntoTheNextTick) {
   PlantOptions o = options(2);
   o.paused = true;
   start(o);
@@ -208,7 +208,7 @@ TEST_F(RealTime, takes_a_command_that_comes_in_a_pause_into_the_next_tick) {
   EXPECT_EQ(plant_->peer.report().rejects.stale, 1U);
 }
 
-TEST_F(RealTime, is_reset_by_the_operator_and_tells_which_session_comes_next) {
+TEST_F(RealTime, IsResetByTheOperatorAndTellsWhichSessionComesNext) {
   start(options(1000));
   state(0);
   send_command(0);
@@ -224,7 +224,7 @@ TEST_F(RealTime, is_reset_by_the_operator_and_tells_which_session_comes_next) {
   }
 }
 
-TEST_F(RealTime, publishes_its_timing) {
+TEST_F(RealTime, PublishesItsTiming) {
   start(options(20));
   state(0);
   send_command(0);
@@ -243,7 +243,7 @@ TEST_F(RealTime, publishes_its_timing) {
   EXPECT_GT(later->wake_up_max, 0);
 }
 
-TEST_F(RealTime, breaks_off_where_the_plant_says_so) {
+TEST_F(RealTime, BreaksOffWhereThePlantSaysSo) {
   breaks_at_ = 2;
   start(options(10));
   state(0);
@@ -252,7 +252,7 @@ TEST_F(RealTime, breaks_off_where_the_plant_says_so) {
   EXPECT_EQ(plant_->peer.report().ticks_done, 2);
 }
 
-TEST_F(RealTime, has_no_speed_max) {
+TEST_F(RealTime, HasNoSpeedMax) {
   Bus bus;
   const StopSwitch stop;
   PlantOptions o = options(1);

@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(SessionFollower, takes_the_first_session_that_it_hears) {
+TEST(SessionFollower, TakesTheFirstSessionThatItHears) {
   SessionFollower f(0);
   EXPECT_FALSE(f.would_follow(0, 5s)) << "0 is no session";
   EXPECT_TRUE(f.would_follow(7, 5s));
@@ -17,7 +17,7 @@ TEST(SessionFollower, takes_the_first_session_that_it_hears) {
   EXPECT_FALSE(f.follow(7, 5s + 1ms)) << "no longer the first";
 }
 
-TEST(SessionFollower, takes_another_only_after_a_second_of_silence) {
+TEST(SessionFollower, TakesAnotherOnlyAfterASecondOfSilence) {
   SessionFollower f(0);
   f.follow(7, 5s);
   EXPECT_FALSE(f.would_follow(8, 6s));
@@ -28,7 +28,7 @@ TEST(SessionFollower, takes_another_only_after_a_second_of_silence) {
   EXPECT_FALSE(f.would_follow(7, 8s));
 }
 
-TEST(SessionFollower, never_leaves_a_given_session) {
+TEST(SessionFollower, NeverLeavesAGivenSession) {
   SessionFollower f(7);
   EXPECT_EQ(f.current(), 7);
   EXPECT_FALSE(f.would_follow(8, 100s));
@@ -36,7 +36,7 @@ TEST(SessionFollower, never_leaves_a_given_session) {
   EXPECT_FALSE(f.would_follow(8, 200s));
 }
 
-TEST(Session, drawn_ids_differ_and_are_not_zero) {
+TEST(Session, DrawnIdsDifferAndAreNotZero) {
   const auto a = draw_session(), b = draw_session();
   EXPECT_NE(a, 0);
   EXPECT_NE(a, b);
