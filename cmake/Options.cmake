@@ -9,9 +9,9 @@ target_compile_options(
   INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
             # Designated initialisers leave the rest at its defaults, on purpose.
             -Wno-missing-field-initializers
-            # GCC 12 sees overlaps in std::string's operator+ (GCC bug 105651), and reads past the ends of small
-            # Eigen vectors and of spans, where there are none.
-            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-array-bounds -Wno-stringop-overread>)
+            # GCC 12 sees overlaps in std::string's operator+ (GCC bug 105651), and reads and writes past the ends of
+            # strings, small Eigen vectors and spans, where there are none.
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-array-bounds -Wno-stringop-overread -Wno-stringop-overflow>)
 if(MIXLOOP_WERROR)
   target_compile_options(mixloop_options INTERFACE -Werror)
 endif()

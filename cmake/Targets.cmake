@@ -39,7 +39,7 @@ target_compile_options(mixloop_tests INTERFACE $<$<CONFIG:Release>:-O1>)
 set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory>
     <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
 mixloop_precompiled(numbers ${standard} <Eigen/Dense> <fmt/format.h>)
-mixloop_precompiled(people ${standard} <Eigen/Core> <fmt/format.h> <nlohmann/json.hpp> <CLI/CLI.hpp>)
+mixloop_precompiled(people ${standard} <Eigen/Core> <fmt/format.h>)
 if(MIXLOOP_TESTS)
   mixloop_precompiled(tests ${standard} <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <gmock/gmock.h> <gtest/gtest.h>)
 endif()

@@ -54,11 +54,12 @@ void LimitCheck::compare(std::int64_t step, std::size_t motor, double value, dou
   constexpr double kSlack = 1e-9;  // a move worked out to run at its limit is off by rounding
   const double ratio = std::abs(value) / limit;
   if (ratio <= (worst_ ? worst_->ratio : 1 + kSlack)) return;
-  const auto& [name, linear] = model_.scene->motors()[motor];
-  const char* unit = torque ? (linear ? "N" : "N m") : (linear ? "m/s" : "rad/s");
-  worst_ = Excess{step, ratio,
-                  fmt::format("the motor {} would {} {:.6g} {}, {:.4g} times its limit of {:.6g} {}", name,
-                              torque ? "need" : "move at", std::abs(value), unit, ratio, limit, unit)};
+  const Scene::Independent& limited = model_.scene->motors()[motor];
+  const char* unit = torque ? (limited.linear ? "N" : "N m") : (limited.linear ? "m/s" : "rad/s");
+  worst_ =
+      Excess{step, ratio,
+             fmt::format("the motor {} would {} {:.6g} {}, {:.4g} times its limit of {:.6g} {}", limited.name,
+                         torque ? "need" : "move at", std::abs(value), unit, ratio, limit, unit)};
 }
 
 }  // namespace mixloop
