@@ -36,20 +36,21 @@ int main(int argc, char** argv) {
 
   const pid_t planner = in_child([&] {
     Bus bus;
-    PlannerPeer(bus, stop, {.n = n}, {.refer = [](std::int64_t, reference_t&) {}, .begin = {}}).run();
+    PlannerPeer(bus, stop, {.n = n, .n_u = n}, {.refer = [](std::int64_t, reference_t&) {}, .begin = {}})
+        .run();
   });
   const pid_t controller = in_child([&] {
     Bus bus;
     ControllerSide side;
     side.compute = [](const state_t&, const reference_t&, std::int64_t, std::span<double>) { return 0; };
-    ControllerPeer(bus, stop, {.n = n}, side).run();
+    ControllerPeer(bus, stop, {.n = n, .n_u = n}, side).run();
   });
 
   Bus bus;
   PlantSide side;
   side.measure = [](std::int64_t, std::span<double>, std::span<double>) { return false; };
   side.advance = [](std::int64_t, std::span<const double>) { return true; };
-  LockstepPlant plant(bus, stop, {.n = n, .last_tick = ticks}, side);
+  LockstepPlant plant(bus, stop, {.n = n, .n_u = n, .last_tick = ticks}, side);
   plant.run();
   waitpid(planner, nullptr, 0);
   waitpid(controller, nullptr, 0);

@@ -50,7 +50,7 @@ class Runner {
     std::vector<double> tau(n_);
     const auto control = [&](int row, double t, std::span<const double> psi, std::span<const double> psid,
                              std::span<double> out) {
-      controller_->torque(psi, psid, plan_->at_stage(plant_->tick(), row), t, out);
+      controller_->torque({psi, psid, t}, plan_->at_stage(plant_->tick(), row), out);
     };
     for (int k = 0; k < case_.ticks; ++k) {
       if (case_.drive == Case::Drive::continuous) {
@@ -59,7 +59,7 @@ class Runner {
         if (case_.drive == Case::Drive::table)
           case_.torque(k, tau);
         else
-          controller_->torque(plant_->psi(), plant_->psid(), plan_->at(k), plant_->time(), tau);
+          controller_->torque({plant_->psi(), plant_->psid(), plant_->time()}, plan_->at(k), tau);
         plant_->command(tau);
         plant_->advance();
       }

@@ -24,7 +24,7 @@ class Driver {
   }
   void operator()(int k, State& state) const {
     if (controller_)
-      controller_->torque(state.psi, state.psid, plan_->at(k), k * case_.tick(), state.tau);
+      controller_->torque({state.psi, state.psid, k * case_.tick()}, plan_->at(k), state.tau);
     else
       case_.torque(k, state.tau);
   }

@@ -49,7 +49,7 @@ struct Plantlike {
     const auto at = papers_reference<double>(t);
     Eigen::Matrix<double, 18, 1> row;
     row << at.psi, at.psid, at.psidd, Vector::Zero(9);
-    controller.torque(part(x, 0), part(x, n), reference_in({row.data(), 18}, 3), t, tau);
+    controller.torque({part(x, 0), part(x, n), t}, reference_in({row.data(), 18}, 3), tau);
   }
 };
 
@@ -172,7 +172,7 @@ Samples run(const Case& problem, Plantlike& plant, Kind kind, double tolerance, 
   for (int k = 0; k < problem.ticks; ++k) {
     const double t = k * problem.tick();
     if (problem.drive == Case::Drive::closed_loop)
-      plant.controller.torque(plant.part(x, 0), plant.part(x, plant.n), plan->at(k), t, plant.tau);
+      plant.controller.torque({plant.part(x, 0), plant.part(x, plant.n), t}, plan->at(k), plant.tau);
     else if (problem.drive == Case::Drive::table)
       problem.torque(k, plant.tau);
     if (k == 0 || !smooth) solver.start(t);

@@ -17,7 +17,7 @@ class Listener {
         recorder_(experiment, plan),
         config_(config_of(common_ground(experiment))),
         states_(experiment.scene->n()),
-        commands_(experiment.scene->n()),
+        commands_(experiment.scene->n_u()),
         controls_(experiment.scene->n()) {
     bus.subscribe<&Listener::on_state>(bus.channel("STATE"), this);
     bus.subscribe<&Listener::on_command>(bus.channel("COMMAND"), this);

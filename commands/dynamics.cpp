@@ -17,9 +17,9 @@ struct Options : CommonOptions {
 };
 
 /// `1,2,3` or `57 deg, 0, 10 cm`; all zero when nothing was said.
-std::vector<double> state_values(const std::string& text, const std::string& option, const Scene& scene) {
-  if (text.empty()) return std::vector<double>(scene.motors().size(), 0.0);
-  return numbers_of(parse_document("[" + text + "]", option), kOpen, scene.motors().size(), option);
+std::vector<double> values_of(const std::string& text, const std::string& option, std::size_t size) {
+  if (text.empty()) return std::vector<double>(size, 0.0);
+  return numbers_of(parse_document("[" + text + "]", option), kOpen, size, option);
 }
 
 template <class Derived>
@@ -43,9 +43,9 @@ nlohmann::json evaluated(const Options& options, const std::shared_ptr<const Sce
   const auto model = make_model<double>(scene, std::span<const double>(parameters));
   Workspace<double> ws(model);
   using In = std::span<const double>;
-  const auto psi = state_values(options.psi, "--psi", *scene),
-             psid = state_values(options.psid, "--psid", *scene),
-             tau = state_values(options.tau, "--tau", *scene);
+  const std::size_t n = scene->independent.size(), n_u = scene->motors().size();
+  const auto psi = values_of(options.psi, "--psi", n), psid = values_of(options.psid, "--psid", n),
+             tau = values_of(options.tau, "--tau", n_u);
   const double t = number_of(*parse_document(options.t, "--t"), kTime, "--t");
 
   nlohmann::json json;

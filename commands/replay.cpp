@@ -37,9 +37,9 @@ class Replay {
         side_(controller_side(controller_, experiment, plan)),
         config_(config_of(common_ground(experiment))),
         states_(experiment.scene->n()),
-        references_(experiment.scene->n()),
-        commands_(experiment.scene->n()),
-        again_(experiment.scene->n()),
+        references_(experiment.scene->n_u()),
+        commands_(experiment.scene->n_u()),
+        again_(experiment.scene->n_u()),
         names_{prefix + "STATE", prefix + "REFERENCE", prefix + "COMMAND"} {}
 
   void take(const LogEvent& event) {

@@ -6,28 +6,34 @@ namespace mixloop {
 Controller::Controller(Dynamics dynamics, ControllerSettings settings)
     : dynamics_(std::move(dynamics)),
       settings_(std::move(settings)),
-      model_torque_(settings_.kp.size()),
-      at_rest_(Vector::Zero(settings_.kp.size())) {}
+      psi_(dynamics_.n()),
+      psid_(psi_),
+      feedforward_(settings_.kp.size()),
+      bias_(psi_) {}
 
-void Controller::torque(std::span<const double> psi, std::span<const double> psid, const Reference& reference,
-                        double t, std::span<double> tau) {
+void Controller::torque(const Measurement& now, const Reference& desired, std::span<double> tau) {
   const Law law = settings_.law;
-  const bool desired = settings_.feedforward_at == FeedforwardAt::desired;
-  const std::span<const double> model_psi = desired ? span_of(reference.psi) : psi;
-  const std::span<const double> model_psid = desired ? span_of(reference.psid) : psid;
-  Eigen::Map<Vector> out(tau.data(), static_cast<Eigen::Index>(tau.size()));
+  const auto n_u = settings_.kp.size();
+  Eigen::Map<Vector> out(tau.data(), n_u);
+  psi_ = map_of(now.psi);
+  psid_ = map_of(now.psid);
 
-  // (33) tau = Kp (Psi_d - Psi) + Kv (Psi'_d - Psi') + ...
-  out = settings_.kp.cwiseProduct(reference.psi - map_of(psi)) +
-        settings_.kv.cwiseProduct(reference.psid - map_of(psid));
+  // (33) tau = Kp (Psi_d - Psi) + Kv (Psi'_d - Psi') + ..., of the motors
+  out = settings_.kp.cwiseProduct(desired.psi - psi_.head(n_u)) +
+        settings_.kv.cwiseProduct(desired.psid - psid_.head(n_u));
+  // Of the free coordinates nothing is desired: the model takes them as measured.
+  if (settings_.feedforward_at == FeedforwardAt::desired) {
+    psi_.head(n_u) = desired.psi;
+    psid_.head(n_u) = desired.psid;
+  }
+  if (law == Law::pd_gravity) psid_.setZero();
   if (law == Law::pd_feedforward || law == Law::computed_torque) {
-    dynamics_.mass_times(model_psi, span_of(reference.psidd), t, span_of(model_torque_));
-    out += model_torque_;
+    dynamics_.mass_times(span_of(std::as_const(psi_)), span_of(desired.psidd), now.t, span_of(feedforward_));
+    out += feedforward_;
   }
   if (law == Law::pd_gravity || law == Law::computed_torque) {
-    dynamics_.bias(model_psi, law == Law::pd_gravity ? span_of(std::as_const(at_rest_)) : model_psid, t,
-                   span_of(model_torque_));
-    out += model_torque_;
+    dynamics_.bias(span_of(std::as_const(psi_)), span_of(std::as_const(psid_)), now.t, span_of(bias_));
+    out += bias_.head(n_u);
   }
 }
 

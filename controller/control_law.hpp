@@ -2,25 +2,26 @@
 #pragma once
 
 #include "controller/controller_settings.hpp"
+#include "controller/measurement.hpp"
 #include "dynamics/evaluator.hpp"
 #include "planner/reference.hpp"
 
 namespace mixloop {
 
-/// The control laws, each a pure function of (measured state, reference, time); the model is what the
-/// controller knows of the robot, not what the plant is.
+/// The control laws, each a pure function of what is measured and desired; the model is what the controller
+/// knows of the robot, not what the plant is.
 class Controller {
  public:
   Controller(Dynamics dynamics, ControllerSettings settings);
 
-  /// tau (n) for the measured psi, psid at time t. Allocates nothing.
-  void torque(std::span<const double> psi, std::span<const double> psid, const Reference& reference, double t,
-              std::span<double> tau);
+  /// tau (n_u). Allocates nothing.
+  void torque(const Measurement& now, const Reference& desired, std::span<double> tau);
 
  private:
   Dynamics dynamics_;
   ControllerSettings settings_;
-  Vector model_torque_, at_rest_;
+  Vector psi_, psid_;          ///< n: where the model is evaluated
+  Vector feedforward_, bias_;  ///< n_u, n
 };
 
 }  // namespace mixloop

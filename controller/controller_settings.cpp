@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "controller/controller_settings.hpp"
 
-#include "dynamics/scene/motor_values.hpp"
+#include "dynamics/scene/coordinate_values.hpp"
 #include "notation/value.hpp"
 
 namespace mixloop {
 namespace {
 
-/// A gain is torque per angle (and time) for a rotary motor, force per length for a linear one.
-Vector gains(const Mapping& entry, const char* key, const Scene& scene, const Dimension& factor) {
-  const auto values =
-      read_motor_values(entry.at(key), scene, kMoment * factor, kForce / kLength * factor, key);
+/// A gain is torque per `error`.
+Vector gains(const Mapping& entry, const char* key, const Scene& scene, const Quantity& error) {
+  const auto values = read_values(entry.at(key), scene.motors(), kTorque / error, key);
   return map_of(std::span<const double>(values));
 }
 
@@ -23,8 +22,8 @@ ControllerSettings read_controller_settings(const NodePtr& node, const Scene& sc
   static constexpr Law kLaws[] = {Law::pd, Law::pd_gravity, Law::pd_feedforward, Law::computed_torque};
   settings.law =
       kLaws[word_of(*entry.at("law"), {"pd", "pd_gravity", "pd_feedforward", "computed_torque"}, "the law")];
-  settings.kp = gains(entry, "kp", scene, kPure);
-  settings.kv = gains(entry, "kv", scene, kTime);
+  settings.kp = gains(entry, "kp", scene, kPosition);
+  settings.kv = gains(entry, "kv", scene, kVelocity);
   if (const NodePtr at = entry.find("feedforward_at"))
     settings.feedforward_at = word_of(*at, {"measured", "desired"}, "feedforward_at") == 0
                                   ? FeedforwardAt::measured

@@ -21,7 +21,7 @@ enum class FeedforwardAt { measured, desired };
 struct ControllerSettings {
   Law law = Law::pd_feedforward;
   FeedforwardAt feedforward_at = FeedforwardAt::measured;
-  Vector kp, kv;  ///< n: the diagonals of Kp (N m/rad) and Kv (N m s/rad)
+  Vector kp, kv;  ///< n_u: the diagonals of Kp (N m/rad) and Kv (N m s/rad)
   SafetySettings safety;
 };
 

@@ -5,45 +5,46 @@
 
 namespace mixloop {
 
-Matrix forward_dynamics_slopes(Dynamics& dynamics, const Vector& psi, const Vector& psid, const Vector& psidd,
-                               double t) {
-  const auto n = psi.size();
+Matrix forward_dynamics_slopes(Dynamics& dynamics, const PsiMotion& at, double t) {
+  const auto n = at.psi.size(), n_u = static_cast<Eigen::Index>(dynamics.scene().n_u());
   Vector tau(n);
-  dynamics.inverse_dynamics(span_of(psi), span_of(psid), span_of(psidd), t, span_of(tau));
-  Matrix slopes(n, 3 * n);
-  dynamics.linearisation(span_of(psi), span_of(psid), span_of(std::as_const(tau)), t,
+  dynamics.inverse_dynamics(span_of(at.psi), span_of(at.psid), span_of(at.psidd), t, span_of(tau));
+  Matrix slopes(n, 2 * n + n_u);
+  dynamics.linearisation(span_of(at.psi), span_of(at.psid),
+                         span_of(std::as_const(tau)).first(static_cast<std::size_t>(n_u)), t,
                          {slopes.data(), static_cast<std::size_t>(slopes.size())});
   return slopes;
 }
 
-InverseDynamicsSlope inverse_dynamics_slope(Dynamics& dynamics, const Vector& psi, const Vector& psid,
-                                            const Vector& psidd, double t) {
-  const auto n = psi.size();
-  const Matrix slopes = forward_dynamics_slopes(dynamics, psi, psid, psidd, t);
+InverseDynamicsSlope inverse_dynamics_slope(Dynamics& dynamics, const PsiMotion& at, double t) {
+  const auto n = at.psi.size();
+  const Matrix slopes = forward_dynamics_slopes(dynamics, at, t);
   const Eigen::PartialPivLU<Matrix> inverse_mass(slopes.rightCols(n));
   return {-inverse_mass.solve(slopes.leftCols(n)), -inverse_mass.solve(slopes.middleCols(n, n))};
 }
 
-Feedback feedback(const ControllerSettings& settings, Dynamics& model, const Reference& reference, double t) {
-  const auto n = settings.kp.size();
-  const Vector psi = reference.psi, psid = reference.psid, psidd = reference.psidd, zero = Vector::Zero(n);
-  Feedback result{Matrix::Zero(n, 2 * n), Matrix::Zero(n, 2 * n)};
-  result.proportional.leftCols(n) = -Matrix(settings.kp.asDiagonal());
-  result.proportional.rightCols(n) = -Matrix(settings.kv.asDiagonal());
+Feedback feedback(const ControllerSettings& settings, Dynamics& model, const PsiMotion& at, double t) {
+  const auto n_u = settings.kp.size(), n = at.psi.size();
+  const Vector zero = Vector::Zero(n);
+  const auto slope = [&](const Vector& psid, const Vector& psidd) {
+    return inverse_dynamics_slope(model, {at.psi, psid, psidd}, t);
+  };
+  Feedback result{Matrix::Zero(n_u, 2 * n), Matrix::Zero(n_u, 2 * n)};
+  result.proportional.leftCols(n_u) = -Matrix(settings.kp.asDiagonal());
+  result.proportional.middleCols(n, n_u) = -Matrix(settings.kv.asDiagonal());
   if (settings.feedforward_at == FeedforwardAt::desired) return result;
   switch (settings.law) {
     case Law::pd:
       break;
     case Law::pd_gravity:  // h(psi, 0)
-      result.model.leftCols(n) = inverse_dynamics_slope(model, psi, zero, zero, t).by_psi;
+      result.model.leftCols(n) = slope(zero, zero).by_psi.topRows(n_u);
       break;
     case Law::pd_feedforward:  // M(psi) psidd_d, the difference of two inverse dynamics
-      result.model.leftCols(n) = inverse_dynamics_slope(model, psi, zero, psidd, t).by_psi -
-                                 inverse_dynamics_slope(model, psi, zero, zero, t).by_psi;
+      result.model.leftCols(n) = (slope(zero, at.psidd).by_psi - slope(zero, zero).by_psi).topRows(n_u);
       break;
     case Law::computed_torque: {
-      const auto slope = inverse_dynamics_slope(model, psi, psid, psidd, t);
-      result.model << slope.by_psi, slope.by_psid;
+      const auto [by_psi, by_psid] = slope(at.psid, at.psidd);
+      result.model << by_psi.topRows(n_u), by_psid.topRows(n_u);
       break;
     }
   }

@@ -26,7 +26,7 @@ void GuardedController::begin() {
 }
 
 std::string GuardedController::start_refusal(std::span<const double> psi, const Reference& start) const {
-  for (std::size_t i = 0; i < psi.size(); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(start.psi.size()); ++i) {
     const double tolerance =
         settings_.start_tolerance.empty() ? kStartTolerance : settings_.start_tolerance[i];
     const double should = start.psi[static_cast<Eigen::Index>(i)];
@@ -39,14 +39,14 @@ std::string GuardedController::start_refusal(std::span<const double> psi, const 
   return "";
 }
 
-CommandMarks GuardedController::torque(std::span<const double> psi, std::span<const double> psid, bool stale,
-                                       const Reference& reference, double t, std::span<double> tau) {
-  stale_ = stale ? stale_ + 1 : 0;
-  if (out_of_range_ || !in_range(psi, psid)) return safe(tau);
+CommandMarks GuardedController::torque(const Measurement& now, const Reference& desired,
+                                       std::span<double> tau) {
+  stale_ = now.stale ? stale_ + 1 : 0;
+  if (out_of_range_ || !in_range(now)) return safe(tau);
   if (stale_ > settings_.max_stale) return safe(tau);
-  if (!stale) trusted_psid_ = map_of(psid);
-  controller_.torque(psi, psid, reference, t, tau);
-  return {.limited = limit(t, tau)};
+  if (!now.stale) trusted_psid_ = map_of(now.psid.first(tau.size()));
+  controller_.torque(now, desired, tau);
+  return {.limited = limit(now.t, tau)};
 }
 
 void GuardedController::safe_torque(std::span<double> tau) const {
@@ -57,16 +57,16 @@ void GuardedController::safe_torque(std::span<double> tau) const {
     out.setZero();
 }
 
-bool GuardedController::in_range(std::span<const double> psi, std::span<const double> psid) {
-  for (std::size_t i = 0; i < psi.size(); ++i) {
-    const bool fast = !settings_.velocity_limit.empty() && std::abs(psid[i]) > settings_.velocity_limit[i];
-    const bool out = !settings_.position_range.empty() &&
-                     (psi[i] < settings_.position_range[i][0] || psi[i] > settings_.position_range[i][1]);
-    if (!fast && !out) continue;
-    out_of_range_ = static_cast<int>(i) + 1;
-    return false;
-  }
-  return true;
+bool GuardedController::in_range(const Measurement& now) {
+  const auto fast = [&](std::size_t i) { return std::abs(now.psid[i]) > settings_.velocity_limit[i]; };
+  const auto out = [&](std::size_t i) {
+    return now.psi[i] < settings_.position_range[i][0] || now.psi[i] > settings_.position_range[i][1];
+  };
+  const auto n_u = static_cast<std::size_t>(damping_.size());
+  for (std::size_t i = 0; i < n_u && !out_of_range_; ++i)
+    if ((!settings_.velocity_limit.empty() && fast(i)) || (!settings_.position_range.empty() && out(i)))
+      out_of_range_ = static_cast<int>(i) + 1;
+  return !out_of_range_;
 }
 
 /// Torque after rate: the torque limit holds whatever came before.

@@ -19,7 +19,7 @@ struct CommandMarks {
 /// it lasts. Nothing allocates after construction.
 class GuardedController {
  public:
-  /// `damping` (n): for SafeCommand::damp.
+  /// `damping` (n_u): for SafeCommand::damp.
   GuardedController(Controller controller, SafetySettings settings, Vector damping);
 
   /// A new session: nothing is remembered.
@@ -28,9 +28,8 @@ class GuardedController {
   /// Says what is wrong where the robot stands too far from where the path starts; empty where nothing is.
   std::string start_refusal(std::span<const double> psi, const Reference& start) const;
 
-  /// tau (n) for what was measured at time t. `stale`: the sensors did not deliver.
-  CommandMarks torque(std::span<const double> psi, std::span<const double> psid, bool stale,
-                      const Reference& reference, double t, std::span<double> tau);
+  /// tau (n_u).
+  CommandMarks torque(const Measurement& now, const Reference& desired, std::span<double> tau);
 
   /// The safe command on its own, where no state or reference came. Nothing is remembered of it.
   void safe_torque(std::span<double> tau) const;
@@ -43,13 +42,13 @@ class GuardedController {
 
  private:
   CommandMarks safe(std::span<double> tau) const { return safe_torque(tau), CommandMarks{.safe = true}; }
-  bool in_range(std::span<const double> psi, std::span<const double> psid);
+  bool in_range(const Measurement& now);
   bool limit(double t, std::span<double> tau);
 
   Controller controller_;
   SafetySettings settings_;
   Vector damping_;
-  Vector trusted_psid_;         ///< of the last state that was trusted
+  Vector trusted_psid_;         ///< n_u, of the last state that was trusted
   Vector before_;               ///< the law's last command
   std::optional<double> when_;  ///< s, that of the law's last command
   std::optional<int> out_of_range_;

@@ -13,16 +13,16 @@ class Commands {
   Commands(const Experiment& experiment, const Plan& plan, const std::vector<Arrival>& arrivals)
       : plan_(plan),
         rate_hz_(experiment.rate_hz),
-        n_(static_cast<std::size_t>(plan.n())),
+        n_u_(static_cast<std::size_t>(plan.n_u())),
         controller_(make_guarded_controller(experiment)),
-        later_(plan.n()),
-        torques_(static_cast<std::size_t>(plan.ticks() + 1) * n_),
+        later_(plan.n_u()),
+        torques_(static_cast<std::size_t>(plan.ticks() + 1) * n_u_),
         next_(arrivals.begin()),
         end_(arrivals.end()) {}
 
   GuardedController& controller() { return controller_; }
   std::span<double> at(std::int64_t k) {
-    return std::span(torques_).subspan(static_cast<std::size_t>(k) * n_, n_);
+    return std::span(torques_).subspan(static_cast<std::size_t>(k) * n_u_, n_u_);
   }
 
   /// Ticks in their order. A state that was never answered did nothing: limits that remember know none of it.
@@ -38,12 +38,12 @@ class Commands {
     const Reference reference =
         ahead == 0 ? plan_.at(k) : later_.take(plan_.at(k - ahead), static_cast<double>(ahead) / rate_hz_);
     const double t = static_cast<double>(k) / rate_hz_;
-    controller_.torque(state.psi(), state.psid(), state.stale(), reference, t, at(k));
+    controller_.torque({state.psi(), state.psid(), t, state.stale()}, reference, at(k));
   }
 
   const Plan& plan_;
   double rate_hz_;
-  std::size_t n_;
+  std::size_t n_u_;
   GuardedController controller_;
   ExtrapolatedReference later_;
   std::vector<double> torques_;

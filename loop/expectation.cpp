@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "dynamics/scene/coordinate_values.hpp"
 #include "notation/value.hpp"
 
 namespace mixloop {
@@ -46,11 +47,10 @@ Expectation read_expectation(const NodePtr& node, const Scene& scene) {
     const auto items = items_of(torque, "max_torque");
     if (items.size() != scene.motors().size())
       throw InputError("wrong_size", torque->place,
-                       fmt::format("max_torque has {} values; expected {}", items.size(), scene.n()));
+                       fmt::format("max_torque has {} values; expected {}", items.size(), scene.n_u()));
     for (std::size_t i = 0; i < items.size(); ++i)
-      expectation.bounds.push_back(
-          {"max_torque", static_cast<int>(i), 0.0,
-           number_of(*items[i], scene.motors()[i].linear ? kForce : kMoment, "max_torque")});
+      expectation.bounds.push_back({"max_torque", static_cast<int>(i), 0.0,
+                                    number_of(*items[i], kTorque.of(scene.motors()[i]), "max_torque")});
   }
   if (const NodePtr diverges = entry.find("diverges")) expectation.diverges = flag_of(*diverges, "diverges");
   if (const NodePtr safe = entry.find("safe_state")) expectation.safe_state = flag_of(*safe, "safe_state");

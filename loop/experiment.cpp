@@ -49,10 +49,9 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
                      "a position error limit that is not positive");
   if (const NodePtr limit = entry.find("velocity"))
     experiment.limits.velocity =
-        read_motor_values(limit, *experiment.scene, kFrequency, kLength / kTime, "the velocity limit");
+        read_values(limit, experiment.scene->motors(), kVelocity, "the velocity limit");
   if (const NodePtr limit = entry.find("torque"))
-    experiment.limits.torque =
-        read_motor_values(limit, *experiment.scene, kMoment, kForce, "the torque limit");
+    experiment.limits.torque = read_values(limit, experiment.scene->motors(), kTorque, "the torque limit");
 }
 
 void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
@@ -107,10 +106,14 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   experiment.controller_scene =
       other_scene ? std::make_shared<const Scene>(load_scene(scene_document_at(*other_scene, base, {})))
                   : experiment.scene;
-  if (experiment.controller_scene->n() != scene.n())
-    throw InputError("wrong_size", other_scene->place,
-                     fmt::format("the controller's scene has {} motors, the plant's {}",
-                                 experiment.controller_scene->n(), scene.n()));
+  const auto require_as_many = [&](const char* what, int controllers, int plants) {
+    if (controllers != plants)
+      throw InputError(
+          "wrong_size", other_scene->place,
+          fmt::format("the controller's scene has {} {}, the plant's {}", controllers, what, plants));
+  };
+  require_as_many("motors", experiment.controller_scene->n_u(), scene.n_u());
+  require_as_many("independent coordinates", experiment.controller_scene->n(), scene.n());
 
   const NodePtr plant = root.find("plant");
   if (plant) experiment.plant = read_plant_settings(plant, scene, experiment.rate_hz);
@@ -142,6 +145,7 @@ Plan make_plan(const Experiment& experiment) {
   const auto model = make_model<double>(experiment.scene, std::span<const double>(experiment.parameters));
   Plan::Settings settings{
       .rate_hz = experiment.rate_hz, .limits = experiment.limits, .start_psi = experiment.plant.initial_psi};
+  if (!settings.start_psi.empty()) settings.start_psi.resize(experiment.scene->motors().size());
   if (experiment.plant.continuous) {
     const StageRows rows = stage_rows(experiment.plant.integrator);
     settings.stages_per_tick = experiment.plant.substeps * (rows.uniform ? rows.rows : 1);
@@ -176,7 +180,9 @@ Experiment with_integrator_settled(Experiment experiment, const Plan& plan) {
 Plant make_plant(const Experiment& experiment, const Plan& plan) {
   if (experiment.plant.automatic && !experiment.integrator_choice)
     return make_plant(with_integrator_settled(experiment, plan), plan);
-  const Vector start = plan.at(0).psi;
+  const auto& initial = experiment.plant.initial_psi;
+  Vector start = map_of(std::span(initial.empty() ? experiment.scene->home : initial));
+  start.head(plan.n_u()) = plan.at(0).psi;
   const auto dynamics = [&](std::initializer_list<Purpose> purposes) {
     return Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, purposes);
   };
@@ -185,7 +191,7 @@ Plant make_plant(const Experiment& experiment, const Plan& plan) {
   return Plant(facts(experiment.plant.integrator).jacobian
                    ? dynamics({Purpose::forward_dynamics, Purpose::linearisation})
                    : dynamics({Purpose::forward_dynamics}),
-               std::move(settings), experiment.rate_hz, span_of(start));
+               std::move(settings), experiment.rate_hz, span_of(std::as_const(start)));
 }
 
 DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan) {

@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t kMostSamples = 48;
 constexpr int kMostSubsteps = 256;
 
-/// A tick of the path: where it starts, what is held over it, and where it ends.
+/// A tick of the path: where it starts, what the motors hold over it, and where it ends.
 struct Sample {
   double t = 0;
   Vector start, tau, end;
@@ -32,6 +32,7 @@ class Chooser {
       : dynamics_(scene, parameters, Evaluation::machine_code,
                   {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::linearisation}),
         n_(scene->n()),
+        n_u_(scene->n_u()),
         tick_(1 / rate_hz),
         local_error_(local_error),
         jacobian_cost_(cost_of(scene, Purpose::linearisation) / cost_of(scene, Purpose::forward_dynamics)) {}
@@ -42,11 +43,12 @@ class Chooser {
     Integrator reference({Method::dop853, 1, finest}, n_, 2 * n_);
     for (std::int64_t i = 0; i < count; ++i) {
       const std::int64_t k = i * plan.ticks() / count;
-      const Reference at = plan.at(k);
+      const PsiMotion at = whole_motion(dynamics_.scene(), plan.at(k));
       Sample sample{static_cast<double>(k) * tick_, Vector(2 * n_), Vector(n_), {}, {}};
       sample.start << at.psi, at.psid;
       dynamics_.inverse_dynamics(span_of(at.psi), span_of(at.psid), span_of(at.psidd), sample.t,
                                  span_of(sample.tau));
+      sample.tau.conservativeResize(n_u_);
       sample.jacobian = {Matrix(n_, n_), Matrix(n_, n_), Vector::Zero(n_)};
       linearise(sample, sample.t, sample.start, sample.jacobian);
       sample.end = advanced(reference, sample);
@@ -86,7 +88,7 @@ class Chooser {
   }
 
   void linearise(const Sample& sample, double t, const Vector& x, AccelerationJacobian<double>& jacobian) {
-    Vector out(3 * n_ * n_);
+    Vector out(n_ * (2 * n_ + n_u_));
     dynamics_.linearisation(psi(x), psid(x), span_of(sample.tau), t, span_of(out));
     jacobian.by_q = Eigen::Map<const Matrix>(out.data(), n_, n_);
     jacobian.by_v = Eigen::Map<const Matrix>(out.data() + n_ * n_, n_, n_);
@@ -161,7 +163,7 @@ class Chooser {
   }
 
   Dynamics dynamics_;
-  int n_;
+  int n_, n_u_;
   double tick_, local_error_, jacobian_cost_;
   std::vector<Sample> samples_;
 };

@@ -15,7 +15,7 @@ struct Measures {
   double time_of_max_position_error = 0;  ///< s
   double final_position_error = 0;        ///< m, at the last tick
   double rms_position_error = 0;          ///< m
-  Vector max_torque;                      ///< n, largest magnitude of each motor's commanded torque
+  Vector max_torque;                      ///< n_u, largest magnitude of each motor's commanded torque
   std::int64_t ticks = 0;                 ///< the last tick recorded; N where the run is whole
   std::string trajectory_sha256;          ///< of the doubles t, psi, psi', tau of ticks 0 to `ticks`
   std::optional<double> diverged_at;      ///< s

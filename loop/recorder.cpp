@@ -18,14 +18,15 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
       kinematics_(experiment.scene, experiment.plant_parameters, experiment.evaluation,
                   {Purpose::end_effector}),
       axes_(experiment.scene->end_effector.axes),
-      n_(static_cast<std::size_t>(experiment.scene->n())),
+      n_(experiment.scene->independent.size()),
+      n_u_(experiment.scene->motors().size()),
       rate_hz_(experiment.rate_hz),
       limit_(experiment.position_error_limit),
-      rows_(static_cast<std::size_t>(plan.ticks() + 3) * (4 * n_ + 1)),
+      rows_(static_cast<std::size_t>(plan.ticks() + 3) * width()),
       conditions_{-1, 1},
       zero_(n_, 0.0),
       hand_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
-  measures_.max_torque = Vector::Zero(experiment.scene->n());
+  measures_.max_torque = Vector::Zero(experiment.scene->n_u());
   const auto& parameters = experiment.plant_parameters;
   conditions_.insert(conditions_.end(), parameters.begin(), parameters.end());
   row_of_conditions_ = conditions_.size();
@@ -68,7 +69,7 @@ bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<cons
   double* to = row(k);
   std::copy(psi.begin(), psi.end(), to);
   std::copy(psid.begin(), psid.end(), to + n_);
-  to[4 * n_] = work;
+  to[width() - 1] = work;
   return true;
 }
 
@@ -76,7 +77,7 @@ bool Recorder::command(std::int64_t k, std::span<const double> tau, std::span<co
   if (!all_finite(tau)) return diverged(k);
   double* to = row(k);
   std::copy(tau.begin(), tau.end(), to + 2 * n_);
-  std::copy(applied.begin(), applied.end(), to + 3 * n_);
+  std::copy(applied.begin(), applied.end(), to + 2 * n_ + n_u_);
   if (k > plan_.ticks()) return true;
   recorded_ = k + 1;
   measures_.max_torque = measures_.max_torque.cwiseMax(map_of(tau).cwiseAbs());

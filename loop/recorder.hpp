@@ -31,11 +31,11 @@ class Recorder {
   void made_safe(std::int64_t k);
 
   std::int64_t ticks_recorded() const { return recorded_; }
-  std::span<const double> psi(std::int64_t k) const { return column(k, 0); }
-  std::span<const double> psid(std::int64_t k) const { return column(k, 1); }
-  std::span<const double> commanded(std::int64_t k) const { return column(k, 2); }
-  std::span<const double> applied(std::int64_t k) const { return column(k, 3); }
-  double work(std::int64_t k) const { return row(k)[4 * n_]; }
+  std::span<const double> psi(std::int64_t k) const { return {row(k), n_}; }
+  std::span<const double> psid(std::int64_t k) const { return {row(k) + n_, n_}; }
+  std::span<const double> commanded(std::int64_t k) const { return {row(k) + 2 * n_, n_u_}; }
+  std::span<const double> applied(std::int64_t k) const { return {row(k) + 2 * n_ + n_u_, n_u_}; }
+  double work(std::int64_t k) const { return row(k)[width() - 1]; }
   double time(std::int64_t k) const { return static_cast<double>(k) / rate_hz_; }
   /// The scene's parameters and the factor on its friction at a tick.
   struct Conditions {
@@ -51,20 +51,18 @@ class Recorder {
  private:
   const double* row(std::int64_t k) const {
     const std::int64_t slot = k <= plan_.ticks() ? k : plan_.ticks() + 1 + k % 2;
-    return rows_.data() + static_cast<std::size_t>(slot) * (4 * n_ + 1);
+    return rows_.data() + static_cast<std::size_t>(slot) * width();
   }
   double* row(std::int64_t k) { return const_cast<double*>(std::as_const(*this).row(k)); }
-  std::span<const double> column(std::int64_t k, std::size_t index) const {
-    return {row(k) + index * n_, n_};
-  }
+  std::size_t width() const { return 2 * n_ + 2 * n_u_ + 1; }
   bool diverged(std::int64_t k);
 
   const Plan& plan_;
   Dynamics kinematics_;
   std::vector<int> axes_;
-  std::size_t n_;
+  std::size_t n_, n_u_;
   double rate_hz_, limit_;
-  std::vector<double> rows_;  ///< of each tick: psi, psid, commanded, applied (n each), work
+  std::vector<double> rows_;  ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work
   /// Changes kept of injected faults; past them the latest one stands for those before it.
   static constexpr std::size_t kInjectedKept = 1000;
   std::size_t row_of_conditions_ = 0;

@@ -17,14 +17,15 @@ void add_vector_names(std::string& line, const char* name, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) line += fmt::format(",{}_{}", name, i + 1);
 }
 
-std::string header(std::size_t n) {
+std::string header(std::size_t n, std::size_t n_u) {
   std::string line = "t";
-  for (const char* name : {"psi", "psid", "tau", "tau_applied"}) add_vector_names(line, name, n);
+  for (const char* name : {"psi", "psid"}) add_vector_names(line, name, n);
+  for (const char* name : {"tau", "tau_applied"}) add_vector_names(line, name, n_u);
   for (const char* kind : {"desired", "actual"})
     for (const char* what : {"position", "velocity", "acceleration"})
       for (const char axis : {'x', 'y', 'z'}) line += fmt::format(",{}_{}_{}", what, axis, kind);
   line += ",kinetic_energy,potential_energy,work";
-  add_vector_names(line, "psi_desired", n);
+  add_vector_names(line, "psi_desired", n_u);
   return line;
 }
 
@@ -32,7 +33,6 @@ std::string header(std::size_t n) {
 
 void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan,
                       const Recorder& recorder) {
-  const auto n = static_cast<std::size_t>(experiment.scene->n());
   TruthReader truth_of(experiment, recorder);
   std::FILE* out = std::fopen(file.c_str(), "w");
   if (!out) throw RunFault("cannot_write", "cannot write " + file.string());
@@ -40,7 +40,7 @@ void write_trajectory(const std::filesystem::path& file, const Experiment& exper
   const auto add = [&](std::span<const double> values) {
     for (const double value : values) fmt::format_to(std::back_inserter(line), ",{}", value);
   };
-  fmt::print(out, "{}\n", header(n));
+  fmt::print(out, "{}\n", header(experiment.scene->independent.size(), experiment.scene->motors().size()));
   for (std::int64_t k = 0; k < recorder.ticks_recorded(); ++k) {
     line.clear();
     fmt::format_to(std::back_inserter(line), "{}", recorder.time(k));
@@ -53,7 +53,7 @@ void write_trajectory(const std::filesystem::path& file, const Experiment& exper
           truth.position.data(), truth.velocity.data(), truth.acceleration.data()})
       add(std::span(vector, 3));
     add(std::array{truth.kinetic_energy, truth.potential_energy, truth.work});
-    add(std::span(desired.psi.data(), n));
+    add(span_of(desired.psi));
     line.push_back('\n');
     std::fwrite(line.data(), 1, line.size(), out);
   }

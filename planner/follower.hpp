@@ -17,7 +17,7 @@ class Follower {
   struct Motion {
     double step = 0;
     PathPoint desired;
-    MotorMotion motors;
+    PsiMotion motors;
   };
 
   /// At the path's start, on the branch of home.

@@ -50,20 +50,21 @@ double unwrapped(double angle, double other) {
 
 InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
     : model_(model),
+      n_u_(model.n_u()),
       ws_(model),
-      home_(Eigen::Map<const Vector>(model.scene->home.data(), model.n())),
-      zero_(Vector::Zero(model.n())),
+      home_(Eigen::Map<const Vector>(model.scene->home.data(), n_u_)),
+      zero_(Vector::Zero(n_u_)),
       scale_(length_of_chain(model)) {
   const std::size_t axes = model.scene->end_effector.axes.size();
-  if (axes != static_cast<std::size_t>(model.n()))
+  if (axes != static_cast<std::size_t>(n_u_))
     throw InputError("no_inverse", {model.scene->transforms.front().place.file},
                      fmt::format("the scene '{}' has {} motors for {} axes of its end effector; a path needs "
                                  "as many motors as axes",
-                                 model.scene->name, model.n(), axes));
+                                 model.scene->name, n_u_, axes));
   if (method == Method::closed_form_if_known) arm_ = find_three_axis_arm(model);
   const Eigen::Matrix3d J = jacobian_of(forward(home_, zero_, zero_, 0));
-  motor_scale_ = Vector::Ones(model.n());
-  for (int i = 0; i < model.n(); ++i)
+  motor_scale_ = Vector::Ones(n_u_);
+  for (int i = 0; i < n_u_; ++i)
     if (const double column = J.col(i).norm(); column > 1e-6 * J.norm()) motor_scale_[i] = scale_ / column;
 }
 
@@ -101,13 +102,14 @@ Eigen::Matrix3d InverseKinematics::jacobian_of(const EndEffectorState<double>& s
   Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
   Eigen::Index i = 0;
   for (const int axis : model_.scene->end_effector.axes)
-    J.row(i++).head(model_.n()) = state.jacobian.row(axis);
+    J.row(i++).head(n_u_) = state.jacobian.row(axis).head(n_u_);
   return J;
 }
 
 const EndEffectorState<double>& InverseKinematics::forward(const Vector& psi, const Vector& psid,
                                                            const Vector& psidd, double t) {
-  return end_effector<double>(model_, span_of(psi), span_of(psid), span_of(psidd), t, ws_);
+  const PsiMotion all = with_free_at_home(*model_.scene, {psi, psid, psidd});
+  return end_effector<double>(model_, span_of(all.psi), span_of(all.psid), span_of(all.psidd), t, ws_);
 }
 
 double InverseKinematics::miss(const Eigen::Vector3d& point, double t, const Vector& psi) {
@@ -121,7 +123,7 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
   Eigen::Vector3d error = on_axes(point - state->position);
   Eigen::Matrix3d J = jacobian_of(*state);
   for (int i = 0; i < kMostIterations; ++i) {
-    const Vector step = first_of(damped_step(J, error, damping), model_.n());
+    const Vector step = first_of(damped_step(J, error, damping), n_u_);
     const Vector trial = psi + step;
     // Longer steps would wind the motors up.
     const double length = step.cwiseQuotient(motor_scale_).norm();
@@ -187,10 +189,9 @@ IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vecto
   if (arm_) return closed_form_rates(point, psid, psidd);
   const EndEffectorState<double>& drift = forward(psi, zero_, zero_, t);
   const Eigen::PartialPivLU<Eigen::Matrix3d> J(jacobian_of(drift));
-  psid = first_of(J.solve(on_axes(point.velocity - drift.velocity)), model_.n());
+  psid = first_of(J.solve(on_axes(point.velocity - drift.velocity)), n_u_);
   if (!psid.allFinite()) return IkOutcome::singular;
-  psidd =
-      first_of(J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)), model_.n());
+  psidd = first_of(J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)), n_u_);
   return psidd.allFinite() ? IkOutcome::solved : IkOutcome::singular;
 }
 

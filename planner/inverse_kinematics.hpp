@@ -20,13 +20,15 @@ enum class IkOutcome {
 
 /// From a desired motion of the end effector to that of the motors, for a scene with as many motors as its
 /// end effector has axes. Closed form for the paper's family (ThreeAxisArm), else Newton's method by the
-/// exact Jacobian, damped where it has to be. The branch is the one of the scene's home.
+/// exact Jacobian, damped where it has to be. The branch is the one of the scene's home, where free
+/// coordinates stay.
 class InverseKinematics {
  public:
   enum class Method { closed_form_if_known, newton };
   using Accepts = std::function<bool(const Vector& psi)>;
 
-  /// Throws InputError("no_inverse") unless n is the number of the end effector's axes. Refers to `model`.
+  /// Throws InputError("no_inverse") unless there are as many motors as the end effector has axes. Refers to
+  /// `model`.
   explicit InverseKinematics(const Model<double>& model, Method method = Method::closed_form_if_known);
 
   /// The arm whose closed form is used, or nothing.
@@ -50,7 +52,7 @@ class InverseKinematics {
   /// J psid = v - E_t, J psidd = a - (E'' where psidd = 0).
   IkOutcome rates(const PathPoint& point, double t, const Vector& psi, Vector& psid, Vector& psidd);
 
-  /// The end effector for given motors, in a workspace that the next call overwrites.
+  /// The end effector for given motors (n_u each), in a workspace that the next call overwrites.
   const EndEffectorState<double>& forward(const Vector& psi, const Vector& psid, const Vector& psidd,
                                           double t);
 
@@ -65,6 +67,7 @@ class InverseKinematics {
   Eigen::Matrix3d jacobian_of(const EndEffectorState<double>& state) const;
 
   const Model<double>& model_;
+  int n_u_;
   std::optional<ThreeAxisArm> arm_;
   Workspace<double> ws_;
   Vector home_, zero_, motor_scale_;

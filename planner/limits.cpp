@@ -8,28 +8,25 @@
 namespace mixloop {
 namespace {
 
-void require(const std::vector<double>& limit, const Model<double>& model, const char* what) {
+void require(const std::vector<double>& limit, std::size_t n_u, const char* what) {
   if (limit.empty()) return;
-  if (limit.size() != static_cast<std::size_t>(model.n()))
+  if (limit.size() != n_u)
     throw InputError("wrong_size", {},
                      fmt::format("the {} limit has {} values; expected one for each of the {} motors", what,
-                                 limit.size(), model.n()));
+                                 limit.size(), n_u));
   for (const double value : limit)
     if (!(value > 0))
       throw InputError("out_of_range", {},
                        fmt::format("a {} limit of {}; expected more than 0", what, value));
 }
 
-std::span<const double> span_of(const Reference::Values& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
-
 }  // namespace
 
 LimitCheck::LimitCheck(const Model<double>& model, const PlanLimits& limits)
     : model_(model), limits_(limits), ws_(model) {
-  require(limits.velocity, model, "velocity");
-  require(limits.torque, model, "torque");
+  const std::size_t n_u = model.scene->motors().size();
+  require(limits.velocity, n_u, "velocity");
+  require(limits.torque, n_u, "torque");
 }
 
 void LimitCheck::look(std::int64_t step, const Reference& reference, double t) {
@@ -44,8 +41,9 @@ void LimitCheck::look(std::int64_t step, const Reference& reference, double t) {
   last_t_ = t;
   last_psi_ = reference.psi;
   if (limits_.torque.empty()) return;
-  const auto& tau = inverse_dynamics<double>(model_, span_of(reference.psi), span_of(reference.psid),
-                                             span_of(reference.psidd), t, ws_);
+  const PsiMotion all = whole_motion(*model_.scene, reference);
+  const auto& tau =
+      inverse_dynamics<double>(model_, span_of(all.psi), span_of(all.psid), span_of(all.psidd), t, ws_);
   for (std::size_t i = 0; i < limits_.torque.size(); ++i)
     compare(step, i, tau[static_cast<Eigen::Index>(i)], limits_.torque[i], true);
 }

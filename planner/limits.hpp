@@ -14,7 +14,8 @@ namespace mixloop {
 /// What a path must respect; an empty list is no limit. One value a motor.
 struct PlanLimits {
   std::vector<double> velocity = {};  ///< rad/s or m/s
-  std::vector<double> torque = {};    ///< N m or N, along the path by inverse dynamics of the plan's model
+  std::vector<double> torque = {};    ///< N m or N, along the path by inverse dynamics of the plan's model,
+                                      ///< free coordinates held at home
 };
 
 /// The worst excess over a limit.
@@ -43,7 +44,7 @@ class LimitCheck {
   Workspace<double> ws_;
   std::int64_t last_step_ = -2;
   double last_t_ = 0;
-  Vector last_psi_;
+  Vector last_psi_;  ///< n_u
   std::optional<Excess> worst_;
 };
 

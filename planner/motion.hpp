@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/procedure/matrix.hpp"
+#include "dynamics/scene/scene.hpp"
 
 namespace mixloop {
 
@@ -12,9 +13,13 @@ struct PathPoint {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s^2
 };
 
-/// The motors at one instant, n each.
-struct MotorMotion {
+/// Psi and its rates at one instant: the motors' (n_u), or those of all independent coordinates (n).
+struct PsiMotion {
   Vector psi, psid, psidd;
 };
+
+/// The motion of all independent coordinates where the motors move so (rates left out are zero) and the free
+/// ones rest at home.
+PsiMotion with_free_at_home(const Scene& scene, PsiMotion motors);
 
 }  // namespace mixloop

@@ -7,7 +7,7 @@
 namespace mixloop {
 
 // psi = from + c3 x^3 + c4 x^4 + c5 x^5 with psi, psi' and psi'' given at x = 1.
-MoveToStart::MoveToStart(const Vector& from, const MotorMotion& to, double duration)
+MoveToStart::MoveToStart(const Vector& from, const PsiMotion& to, double duration)
     : from_(from), duration_(duration) {
   const Vector move = to.psi - from, V = duration * to.psid, A = duration * duration * to.psidd;
   c3_ = 10 * move - 4 * V + A / 2;
@@ -15,7 +15,7 @@ MoveToStart::MoveToStart(const Vector& from, const MotorMotion& to, double durat
   c5_ = 6 * move - 3 * V + A / 2;
 }
 
-MotorMotion MoveToStart::at(double x) const {
+PsiMotion MoveToStart::at(double x) const {
   return {from_ + x * x * x * (c3_ + x * (c4_ + x * c5_)),
           x * x * (3 * c3_ + x * (4 * c4_ + x * 5 * c5_)) / duration_,
           x * (6 * c3_ + x * (12 * c4_ + x * 20 * c5_)) / (duration_ * duration_)};

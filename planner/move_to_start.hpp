@@ -10,11 +10,11 @@ namespace mixloop {
 class MoveToStart {
  public:
   /// `duration` in s.
-  MoveToStart(const Vector& from, const MotorMotion& to, double duration);
+  MoveToStart(const Vector& from, const PsiMotion& to, double duration);
 
   double duration() const { return duration_; }
   /// At x = t / duration in [0, 1].
-  MotorMotion at(double x) const;
+  PsiMotion at(double x) const;
 
  private:
   Vector from_, c3_, c4_, c5_;

@@ -8,7 +8,7 @@
 namespace mixloop {
 
 Plan::Plan(const Model<double>& model, const Path& path, const Settings& settings)
-    : n_(model.n()), stages_(settings.stages_per_tick * static_cast<int>(settings.within.size())) {
+    : n_u_(model.n_u()), stages_(settings.stages_per_tick * static_cast<int>(settings.within.size())) {
   PlanMaker(model, path, settings).make(*this);
 }
 
@@ -19,14 +19,14 @@ std::span<const double> Plan::row_of(std::int64_t index) const {
     row = row > end ? rows + 1 : rows;
   else if (row >= rows)
     row = start + (row - start) % lap_rows_;
-  const std::size_t size = reference_size(n_);
+  const std::size_t size = reference_size(n_u_);
   return {table_.data() + static_cast<std::size_t>(row) * size, size};
 }
 
 Reference Plan::at_stage(std::int64_t k, int j) const {
   // Far past the end, k * stages_ would overflow.
   const std::int64_t tick = std::clamp<std::int64_t>(k, -1, ticks_ + 1);
-  return reference_in(row_of(tick * stages_ + (tick == k ? j : 0)), n_);
+  return reference_in(row_of(tick * stages_ + (tick == k ? j : 0)), n_u_);
 }
 
 }  // namespace mixloop

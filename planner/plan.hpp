@@ -22,7 +22,7 @@ class Plan {
     std::vector<double> within = {
         0};  ///< rows a step, as shares of it, ascending from 0: an integrator's stages
     PlanLimits limits = {};
-    std::vector<double> start_psi = {};  ///< where the motors stand; empty: at the path's start
+    std::vector<double> start_psi = {};  ///< n_u, where the motors stand; empty: at the path's start
   };
 
   /// Throws InputError saying where on the path and why: "unreachable", "singular_path", "crosses_branch",
@@ -33,7 +33,7 @@ class Plan {
   /// asks for, or, without limits, so long that no motor turns faster than on the path.
   Plan(const Model<double>& model, const Path& path, const Settings& settings);
 
-  int n() const { return n_; }
+  int n_u() const { return n_u_; }
   std::int64_t ticks() const { return ticks_; }  ///< N: the last tick
   /// Where the path begins, after the move to its start.
   std::int64_t start_tick() const { return start_tick_; }
@@ -49,7 +49,7 @@ class Plan {
   friend class PlanMaker;
   std::span<const double> row_of(std::int64_t index) const;
 
-  int n_ = 0;
+  int n_u_ = 0;
   int stages_ = 1;  ///< rows a tick
   std::int64_t ticks_ = 0, start_tick_ = 0;
   std::int64_t lap_rows_ = 0;  ///< of the path's rows in the table: a path that repeats has one lap there

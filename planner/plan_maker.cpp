@@ -22,10 +22,11 @@ const Plan::Settings& checked(const Plan::Settings& settings, const Model<double
   if (settings.within.empty() || settings.within.front() != 0 || settings.within.back() >= 1 ||
       !std::is_sorted(settings.within.begin(), settings.within.end()))
     throw InputError("out_of_range", {}, "a step's rows are to ascend from 0 and to stay below 1");
-  if (!settings.start_psi.empty() && settings.start_psi.size() != static_cast<std::size_t>(model.n()))
+  if (const std::size_t n_u = model.scene->motors().size();
+      !settings.start_psi.empty() && settings.start_psi.size() != n_u)
     throw InputError("wrong_size", {},
                      fmt::format("the start has {} values; expected one for each of the {} motors",
-                                 settings.start_psi.size(), model.n()));
+                                 settings.start_psi.size(), n_u));
   return settings;
 }
 
@@ -51,8 +52,8 @@ void PlanMaker::make(Plan& plan) {
   require_room(static_cast<double>(lap_steps_));
   follow(plan, 0);
   if (!settings_.start_psi.empty()) {
-    const Vector from = Eigen::Map<const Vector>(settings_.start_psi.data(), plan.n_);
-    const Vector move = reference_in(plan.table_, plan.n_).psi - from;
+    const Vector from = Eigen::Map<const Vector>(settings_.start_psi.data(), plan.n_u_);
+    const Vector move = reference_in(plan.table_, plan.n_u_).psi - from;
     if (const std::int64_t ticks = approach_ticks(plan, move); ticks > 0) {
       if (timed_ || timed_loads_) follow(plan, ticks * settings_.stages_per_tick);
       approach(plan, from, ticks);
@@ -62,14 +63,14 @@ void PlanMaker::make(Plan& plan) {
 }
 
 void PlanMaker::require_room(double steps) const {
-  if (!(steps * static_cast<double>(width_) * static_cast<double>(reference_size(model_.n())) <=
+  if (!(steps * static_cast<double>(width_) * static_cast<double>(reference_size(model_.n_u())) <=
         kMostNumbers))
     throw InputError("too_large", path_.place,
                      fmt::format("{} steps; their table would take more than 1 GB", steps));
 }
 
 std::span<double> PlanMaker::row(Plan& plan, std::int64_t index) const {
-  const std::size_t size = reference_size(plan.n_);
+  const std::size_t size = reference_size(plan.n_u_);
   return std::span(plan.table_).subspan(static_cast<std::size_t>(index) * size, size);
 }
 
@@ -95,7 +96,7 @@ void PlanMaker::write(const Follower::Motion& motion, double t, std::span<double
 // The path's rows, of each step of a lap and one for its end, checked.
 void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   const std::int64_t steps = lap_steps_;
-  plan.table_.resize(static_cast<std::size_t>(steps * width_ + 1) * reference_size(plan.n_));
+  plan.table_.resize(static_cast<std::size_t>(steps * width_ + 1) * reference_size(plan.n_u_));
   samples_.resize(static_cast<std::size_t>(steps + 1) * measures_.count());
   Follower follower(ik_, itinerary_, delay);
   const double t_start = follower.time(0);
@@ -131,7 +132,7 @@ void PlanMaker::check_singularities(Plan& plan, std::int64_t delay) {
   Follower follower(ik_, itinerary_, delay);
   const auto measures_at = [&](double step, double* values) {
     const std::int64_t before = std::llround(std::floor(step));
-    const Reference known = reference_in(row(plan, before * width_), plan.n_);
+    const Reference known = reference_in(row(plan, before * width_), plan.n_u_);
     follower.resume({static_cast<double>(before), {}, {known.psi, known.psid, known.psidd}});
     if (follower.advance(step) == IkOutcome::solved)
       return measures_.evaluate(follower.now().motors.psi, follower.time(step), values);
@@ -149,18 +150,18 @@ void PlanMaker::check_limits(Plan& plan, std::int64_t delay) {
   for (std::int64_t lap = 0; lap < laps; ++lap)
     for (std::int64_t i = 0; i <= lap_steps_; ++i) {
       const std::int64_t step = lap * lap_steps_ + i;
-      check.look(step, reference_in(row(plan, i * width_), plan.n_), clock.time(static_cast<double>(step)));
+      check.look(step, reference_in(row(plan, i * width_), plan.n_u_), clock.time(static_cast<double>(step)));
     }
   if (check.worst()) refusal_.excess(*check.worst());
 }
 
 std::int64_t PlanMaker::approach_ticks(Plan& plan, const Vector& move) {
-  const Reference start = reference_in(row(plan, 0), plan.n_);
+  const Reference start = reference_in(row(plan, 0), plan.n_u_);
   if (move.cwiseAbs().maxCoeff() <= 1e-12 * std::max(1.0, start.psi.cwiseAbs().maxCoeff())) return 0;
   if (path_.approach) return ticks_of(*path_.approach, settings_.rate_hz, path_.place, "the approach");
   const Vector fastest = settings_.limits.velocity.empty()
                              ? fastest_on_path(plan)
-                             : Vector(Eigen::Map<const Vector>(settings_.limits.velocity.data(), plan.n_));
+                             : Vector(Eigen::Map<const Vector>(settings_.limits.velocity.data(), plan.n_u_));
   const double ticks = std::ceil(shortest_move(move, fastest) * settings_.rate_hz * (1 - 1e-10));
   require_room(ticks * settings_.stages_per_tick);
   return static_cast<std::int64_t>(ticks);
@@ -168,12 +169,12 @@ std::int64_t PlanMaker::approach_ticks(Plan& plan, const Vector& move) {
 
 // Of each motor, what any motor of its kind reaches.
 Vector PlanMaker::fastest_on_path(Plan& plan) const {
-  Vector each = Vector::Zero(plan.n_), fastest = each;
+  Vector each = Vector::Zero(plan.n_u_), fastest = each;
   for (std::int64_t step = 0; step < lap_steps_; ++step)
-    each = each.cwiseMax(reference_in(row(plan, step * width_), plan.n_).psid.cwiseAbs());
+    each = each.cwiseMax(reference_in(row(plan, step * width_), plan.n_u_).psid.cwiseAbs());
   const auto linear = [&](int i) { return model_.scene->motors()[static_cast<std::size_t>(i)].linear; };
-  for (int i = 0; i < plan.n_; ++i)
-    for (int j = 0; j < plan.n_; ++j)
+  for (int i = 0; i < plan.n_u_; ++i)
+    for (int j = 0; j < plan.n_u_; ++j)
       if (linear(i) == linear(j)) fastest[i] = std::max(fastest[i], each[j]);
   return fastest;
 }
@@ -184,11 +185,11 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   const std::int64_t steps = ticks * settings_.stages_per_tick;
   require_room(static_cast<double>(lap_steps_ + steps));
   const double rate = itinerary_.step_rate();
-  const Reference start = reference_in(row(plan, 0), plan.n_);
+  const Reference start = reference_in(row(plan, 0), plan.n_u_);
   const MoveToStart move(from, {start.psi, start.psid, start.psidd}, static_cast<double>(steps) / rate);
   const auto at = [&](double step) { return move.at(step / static_cast<double>(steps)); };
-  plan.table_.insert(plan.table_.begin(), static_cast<std::size_t>(steps * width_) * reference_size(plan.n_),
-                     0.0);
+  plan.table_.insert(plan.table_.begin(),
+                     static_cast<std::size_t>(steps * width_) * reference_size(plan.n_u_), 0.0);
   plan.start_tick_ = ticks;
   plan.ticks_ += ticks;
 
@@ -205,7 +206,7 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   for (std::int64_t step = 0; step < steps; ++step) {
     for (std::int64_t j = 0; j < width_; ++j)
       fill(static_cast<double>(step) + settings_.within[static_cast<std::size_t>(j)], step * width_ + j);
-    const Reference now = reference_in(row(plan, step * width_), plan.n_);
+    const Reference now = reference_in(row(plan, step * width_), plan.n_u_);
     const double t = static_cast<double>(step) / rate;
     check.look(step, now, t);
     measures_.evaluate(now.psi, t, values.data());
@@ -222,13 +223,13 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
 
 // The last row once more, without rates.
 void PlanMaker::rest_past_the_end(Plan& plan) {
-  const std::size_t size = reference_size(plan.n_);
+  const std::size_t size = reference_size(plan.n_u_);
   plan.table_.resize(plan.table_.size() + size);
-  const auto n = static_cast<std::size_t>(plan.n_);
+  const auto n_u = static_cast<std::size_t>(plan.n_u_);
   const auto rest = std::span(plan.table_).last(size),
              end = std::span(plan.table_).last(2 * size).first(size);
-  std::ranges::copy(end.first(n), rest.begin());
-  std::ranges::copy(end.subspan(3 * n, 3), rest.subspan(3 * n).begin());
+  std::ranges::copy(end.first(n_u), rest.begin());
+  std::ranges::copy(end.subspan(3 * n_u, 3), rest.subspan(3 * n_u).begin());
 }
 
 }  // namespace mixloop

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/motion.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -28,11 +30,12 @@ double signed_distance_to_singular(const Eigen::Matrix3d& A, int n) {
 
 SingularityMeasures::SingularityMeasures(const Model<double>& model, const Vector& motor_scale)
     : model_(model),
+      n_u_(model.n_u()),
       ws_(model),
       motor_scale_(motor_scale),
       scale_(model.scene->singularities.size() + 1, 1.0),
       buffer_(scale_.size()) {
-  const Vector home = Eigen::Map<const Vector>(model.scene->home.data(), model.n());
+  const Vector home = Eigen::Map<const Vector>(model.scene->home.data(), n_u_);
   evaluate_raw(home, 0, scale_.data());
 }
 
@@ -41,9 +44,10 @@ std::string SingularityMeasures::name(std::size_t measure) const {
   return measure < named.size() ? "'" + named[measure].name + "'" : "of the end effector's Jacobian";
 }
 
-void SingularityMeasures::evaluate_raw(const Vector& psi, double t, double* values) {
+void SingularityMeasures::evaluate_raw(const Vector& motors, double t, double* values) {
   const auto& scene = *model_.scene;
   const Symbols symbols(scene);
+  const Vector psi = with_free_at_home(scene, {motors, {}, {}}).psi;
   coordinates<double>(model_, span_of(psi), t, ws_);
   const auto symbol = [&](int number) -> double {
     if (symbols.is_q(number)) return ws_.q[number - symbols.q0];
@@ -54,7 +58,7 @@ void SingularityMeasures::evaluate_raw(const Vector& psi, double t, double* valu
   };
   for (const auto& singularity : scene.singularities)
     *values++ = mixloop::evaluate<double>(singularity.measure, symbol);
-  *values = signed_distance_to_singular(scaled_jacobian(), model_.n());
+  *values = signed_distance_to_singular(scaled_jacobian(), n_u_);
 }
 
 // The rows D C of the scene's axes, in units of the motors' scale; the rest of 3 x 3 is zero.
@@ -66,8 +70,8 @@ Eigen::Matrix3d SingularityMeasures::scaled_jacobian() {
                             model_.end_effector_point, ws_.D);
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < path.size(); ++k)
-    for (int i = 0; i < model_.n(); ++i)
-      for (int j = 0; j < model_.n(); ++j)
+    for (int i = 0; i < n_u_; ++i)
+      for (int j = 0; j < n_u_; ++j)
         J(i, j) += ws_.D(end_effector.axes[static_cast<std::size_t>(i)], static_cast<Eigen::Index>(k)) *
                    ws_.C(path[k], j) * motor_scale_[j];
   return J;

@@ -23,7 +23,7 @@ class SingularityMeasures {
   std::size_t count() const { return scale_.size(); }
   std::string name(std::size_t measure) const;
 
-  /// count() values.
+  /// count() values, for the motors' psi (n_u).
   void evaluate(const Vector& psi, double t, double* values);
   /// Whether all are positive.
   bool on_home_branch(const Vector& psi, double t);
@@ -31,10 +31,11 @@ class SingularityMeasures {
   void adopt_scale(const Vector& psi, double t);
 
  private:
-  void evaluate_raw(const Vector& psi, double t, double* values);
+  void evaluate_raw(const Vector& motors, double t, double* values);
   Eigen::Matrix3d scaled_jacobian();
 
   const Model<double>& model_;
+  int n_u_;
   Workspace<double> ws_;
   Vector motor_scale_;
   std::vector<double> scale_, buffer_;

@@ -45,8 +45,10 @@ std::vector<bool> affine_coordinates(const Scene& scene) {
 }
 
 bool has_the_form(const Model<double>& model, const std::vector<const Link*>& chain) {
-  if (model.n() != 3 || model.scene->end_effector.axes.size() != 3 || chain.size() != 3) return false;
-  const auto affine = affine_coordinates(*model.scene);
+  const Scene& scene = *model.scene;
+  if (scene.n() != 3 || scene.n_u() != 3 || scene.end_effector.axes.size() != 3 || chain.size() != 3)
+    return false;
+  const auto affine = affine_coordinates(scene);
   for (const Link* link : chain)
     if (link->coordinate < 0 || link->prismatic || link->scale == 0 ||
         !affine[static_cast<std::size_t>(link->coordinate)])

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "notation/value.hpp"
-#include "plant/each_motor.hpp"
+#include "plant/read_each.hpp"
 
 namespace mixloop {
 namespace {
@@ -16,10 +16,10 @@ constexpr Range kPositive{kSmallest, kNoLimit, "a positive value"}, kNotNegative
 
 void read_ripple(const NodePtr& node, const Scene& scene, ActuatorSettings& settings) {
   const Mapping entry(node, "the torque ripple", {"amplitude", "per_turn"});
-  settings.ripple = read_each_motor(entry.at("amplitude"), scene, kPure, kPure,
-                                    {0, 1, "0 to 1, a share of the torque"}, "the ripple's amplitude");
+  settings.ripple = read_each(entry.at("amplitude"), scene.motors(), kNumber,
+                              {0, 1, "0 to 1, a share of the torque"}, "the ripple's amplitude");
   settings.ripple_per_turn =
-      read_each_motor(entry.at("per_turn"), scene, kPure, kPure, kPositive, "the ripple's periods per turn");
+      read_each(entry.at("per_turn"), scene.motors(), kNumber, kPositive, "the ripple's periods per turn");
   for (std::size_t i = 0; i < scene.motors().size(); ++i)
     if (scene.motors()[i].linear && settings.ripple[i] > 0)
       throw InputError("out_of_range", entry.at("amplitude")->place,
@@ -29,15 +29,15 @@ void read_ripple(const NodePtr& node, const Scene& scene, ActuatorSettings& sett
 
 void read_friction(const NodePtr& node, const Scene& scene, ActuatorSettings& settings) {
   const Mapping entry(node, "the drives' friction", {"viscous", "coulomb", "smooth"});
-  settings.viscous = read_each_motor(entry.find("viscous"), scene, kMoment * kTime, kForce * kTime / kLength,
-                                     kNotNegative, "viscous friction");
+  settings.viscous =
+      read_each(entry.find("viscous"), scene.motors(), kTorque / kVelocity, kNotNegative, "viscous friction");
   settings.coulomb =
-      read_each_motor(entry.find("coulomb"), scene, kMoment, kForce, kNotNegative, "Coulomb friction");
+      read_each(entry.find("coulomb"), scene.motors(), kTorque, kNotNegative, "Coulomb friction");
   const NodePtr smooth = entry.find("smooth");
   if (smooth && settings.coulomb.empty())
     throw InputError("unknown_key", smooth->place, "smooth belongs to coulomb, and there is none");
-  settings.smooth = read_each_motor(smooth, scene, kFrequency, kLength / kTime, kPositive,
-                                    "the velocity up to which Coulomb friction is smooth");
+  settings.smooth = read_each(smooth, scene.motors(), kVelocity, kPositive,
+                              "the velocity up to which Coulomb friction is smooth");
   if (settings.smooth.empty() && !settings.coulomb.empty())
     settings.smooth.assign(scene.motors().size(), kSmooth);
 }
@@ -47,20 +47,20 @@ void read_friction(const NodePtr& node, const Scene& scene, ActuatorSettings& se
 ActuatorSettings read_actuator_settings(const NodePtr& node, const Scene& scene) {
   const Mapping entry(node, "the actuators", {"rate_limit", "time_constant", "ripple", "friction"});
   ActuatorSettings settings;
-  settings.rate_limit = read_each_motor(entry.find("rate_limit"), scene, kMoment / kTime, kForce / kTime,
-                                        kPositive, "the rate limit");
+  settings.rate_limit =
+      read_each(entry.find("rate_limit"), scene.motors(), kTorque / kSeconds, kPositive, "the rate limit");
   settings.time_constant =
-      read_each_motor(entry.find("time_constant"), scene, kTime, kTime, kNotNegative, "the time constant");
+      read_each(entry.find("time_constant"), scene.motors(), kSeconds, kNotNegative, "the time constant");
   if (const NodePtr ripple = entry.find("ripple")) read_ripple(ripple, scene, settings);
   if (const NodePtr friction = entry.find("friction")) read_friction(friction, scene, settings);
   return settings;
 }
 
-Actuators::Actuators(const ActuatorSettings& settings, std::size_t n) {
+Actuators::Actuators(const ActuatorSettings& settings, std::size_t n_u) {
   const auto value = [](const std::vector<double>& values, std::size_t i, double otherwise) {
     return values.empty() ? otherwise : values[i];
   };
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n_u; ++i)
     drives_.push_back({.rate = value(settings.rate_limit, i, HUGE_VAL),
                        .lag = value(settings.time_constant, i, 0),
                        .ripple = value(settings.ripple, i, 0),

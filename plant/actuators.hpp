@@ -36,12 +36,12 @@ ActuatorSettings read_actuator_settings(const NodePtr& node, const Scene& scene)
 /// Nothing allocates after construction.
 class Actuators {
  public:
-  Actuators(const ActuatorSettings& settings, std::size_t n);
+  Actuators(const ActuatorSettings& settings, std::size_t n_u);
 
-  /// `u` is asked for from now on, n. The first one finds the drives settled on it.
+  /// `u` is asked for from now on, n_u. The first one finds the drives settled on it.
   void take(std::span<const double> u);
 
-  /// What acts `s` seconds after take or pass, whichever came last.
+  /// What acts (n_u) `s` seconds after take or pass, whichever came last.
   void torque(double s, std::span<const double> psi, std::span<const double> psid, double friction,
               std::span<double> tau) const;
 

@@ -12,8 +12,7 @@ DeadlinePlant::DeadlinePlant(Plant plant, const PlantSettings& settings, Deadlin
       deadline_(std::move(deadline)),
       tick_length_(1.0 / rate_hz),
       delay_(settings.command_delay),
-      n_(plant_.psi().size()),
-      commanded_(Vector::Zero(static_cast<Eigen::Index>(n_))),
+      commanded_(Vector::Zero(static_cast<Eigen::Index>(plant_.applied().size()))),
       stand_(commanded_),
       last_hundred_(100, true) {
   // Commands are each of another tick: no more of them wait than ticks go into the delay.
@@ -87,16 +86,17 @@ bool DeadlinePlant::inject(const Fault& fault) {
 
 void DeadlinePlant::go_safe(const char* cause) {
   safe_ = Safe{.tick = plant_.tick(), .cause = cause};
-  stand_ = map_of(plant_.psi());
+  stand_ = map_of(plant_.psi()).head(stand_.size());
   if (deadline_.safe_state == SafeState::brake) plant_.lock();
 }
 
 void DeadlinePlant::take_safe_torque() {
   commanded_.setZero();
   const bool hold = deadline_.safe_state == SafeState::hold;
-  if (hold) commanded_ = deadline_.kp.cwiseProduct(stand_ - map_of(plant_.psi()));
+  const auto n_u = commanded_.size();
+  if (hold) commanded_ = deadline_.kp.cwiseProduct(stand_ - map_of(plant_.psi()).head(n_u));
   if (hold || deadline_.safe_state == SafeState::damp)
-    commanded_ -= deadline_.kv.cwiseProduct(map_of(plant_.psid()));
+    commanded_ -= deadline_.kv.cwiseProduct(map_of(plant_.psid()).head(n_u));
   plant_.take_effect(0, span_of(std::as_const(commanded_)));
 }
 

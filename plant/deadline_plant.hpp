@@ -44,7 +44,7 @@ class DeadlinePlant {
   const std::optional<Safe>& safe() const { return safe_; }
 
   /// The command in effect at the end of the last tick, before limits; in the safe state, what stands for it.
-  std::span<const double> commanded() const { return {commanded_.data(), n_}; }
+  std::span<const double> commanded() const { return span_of(commanded_); }
 
   std::int64_t missed() const { return missed_; }              ///< ticks whose command came late or never
   std::int64_t longest_miss() const { return longest_miss_; }  ///< the longest run of them
@@ -65,11 +65,10 @@ class DeadlinePlant {
   Plant plant_;
   DeadlineSettings deadline_;
   double tick_length_, delay_;
-  std::size_t n_;
   std::int64_t newest_ = -1;     ///< the newest command that arrived
   std::vector<Effect> effects_;  ///< a ring of those that are still to act
   std::size_t first_ = 0, waiting_ = 0;
-  Vector commanded_, stand_;  ///< stand_: psi where the safe state began
+  Vector commanded_, stand_;  ///< n_u; stand_: the motors' psi where the safe state began
   std::optional<Safe> safe_;
   Arrivals arrivals_;
 

@@ -22,7 +22,7 @@ std::string_view name_of(SafeState state);
 struct DeadlineSettings {
   int max_missed = 20;  ///< more commands missed in a row than this bring the safe state
   SafeState safe_state = SafeState::hold;
-  Vector kp, kv;  ///< n: the drives' own servo, for hold and damp
+  Vector kp, kv;  ///< n_u: the drives' own servo, for hold and damp
 };
 
 /// Reads `{max_missed, safe_state}`; the gains are not its own.

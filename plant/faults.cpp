@@ -50,8 +50,9 @@ const char* objection(const Fault& fault, const Scene& scene, double rate_hz) {
     return "a number is not finite";
   if (fault.at < 0 || fault.duration < 0) return "a time is negative";
   if (fault.target > Target::friction) return "there is no such target";
-  const auto count =
-      static_cast<int>(fault.target == Target::parameter ? scene.parameters.size() : scene.motors().size());
+  const auto count = fault.target == Target::parameter ? static_cast<int>(scene.parameters.size())
+                     : fault.target == Target::sensor  ? scene.n()
+                                                       : scene.n_u();
   if (fault.target != Target::friction && fault.index >= count)
     return "there is no such motor, sensor or parameter";
   if (fault.index < (fault.target == Target::parameter ? 0 : -1)) return "the index is negative";
@@ -138,13 +139,14 @@ double FaultFilter::filtered(double value) {
 Faults::Faults(const FaultSettings& settings, std::uint64_t seed, const Scene& scene, double rate_hz,
                std::vector<double> values)
     : rate_hz_(rate_hz),
-      n_(scene.motors().size()),
-      until_(2 * n_ + values.size() + 1, kNever),
+      n_(scene.independent.size()),
+      n_u_(scene.motors().size()),
+      until_(n_u_ + n_ + values.size() + 1, kNever),
       normal_(values),
       values_(std::move(values)) {
   const Chance chance(seed);
+  for (std::size_t i = 0; i < n_u_; ++i) motors_.emplace_back(chance, i, Draw::motor_fault, rate_hz);
   for (std::size_t i = 0; i < n_; ++i) {
-    motors_.emplace_back(chance, i, Draw::motor_fault, rate_hz);
     positions_.emplace_back(chance, i, Draw::position_fault, rate_hz);
     velocities_.emplace_back(chance, i, Draw::velocity_fault, rate_hz);
   }
@@ -191,9 +193,9 @@ void Faults::begin(std::int64_t tick) {
 
 Fault Faults::healing(std::size_t slot) const {
   const auto index = [](std::size_t i) { return static_cast<int>(i); };
-  if (slot < n_) return {.target = Target::motor, .index = index(slot)};
-  if (slot < 2 * n_) return {.target = Target::sensor, .index = index(slot - n_)};
-  if (slot + 1 < until_.size()) return {.target = Target::parameter, .index = index(slot - 2 * n_)};
+  if (slot < n_u_) return {.target = Target::motor, .index = index(slot)};
+  if (slot < n_u_ + n_) return {.target = Target::sensor, .index = index(slot - n_u_)};
+  if (slot + 1 < until_.size()) return {.target = Target::parameter, .index = index(slot - n_u_ - n_)};
   return {.target = Target::friction};
 }
 
@@ -207,12 +209,13 @@ bool Faults::start(const Fault& fault, std::int64_t until) {
   if (fault.target == Target::parameter) {
     const auto i = static_cast<std::size_t>(fault.index);
     values_[i] = heals ? normal_[i] : fault.magnitude;
-    until_[2 * n_ + i] = until;
+    until_[n_u_ + n_ + i] = until;
     return true;
   }
-  for (std::size_t i = 0; i < n_; ++i) {
+  const bool motors = fault.target == Target::motor;
+  for (std::size_t i = 0; i < (motors ? n_u_ : n_); ++i) {
     if (fault.index >= 0 && static_cast<std::size_t>(fault.index) != i) continue;
-    if (fault.target == Target::motor) {
+    if (motors) {
       motors_[i].start(fault.kind, fault.magnitude);
       until_[i] = until;
       continue;
@@ -220,7 +223,7 @@ bool Faults::start(const Fault& fault, std::int64_t until) {
     positions_[i].start(fault.kind, fault.magnitude);
     // Who counts from a wrong zero has the right velocity.
     velocities_[i].start(fault.kind == Kind::wrong ? Kind::none : fault.kind, fault.magnitude);
-    until_[n_ + i] = until;
+    until_[n_u_ + i] = until;
   }
   return false;
 }

@@ -121,7 +121,7 @@ class Faults {
   std::int64_t tick_at(double time) const;
 
   double rate_hz_;
-  std::size_t n_;
+  std::size_t n_, n_u_;
   std::vector<Scheduled> waiting_;  ///< in the order of their ticks
   std::vector<FaultFilter> motors_, positions_, velocities_;
   std::vector<std::int64_t>

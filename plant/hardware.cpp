@@ -6,12 +6,12 @@
 namespace mixloop {
 
 Hardware::Hardware(const PlantSettings& settings, const Dynamics& dynamics, double rate_hz)
-    : asked_(Vector::Zero(dynamics.n())), faulted_(asked_) {
-  const auto n = static_cast<std::size_t>(dynamics.n());
+    : asked_(Vector::Zero(dynamics.scene().n_u())), faulted_(asked_) {
   const Scene& scene = dynamics.scene();
+  const std::size_t n = scene.independent.size(), n_u = scene.motors().size();
   const std::vector<double> values =
       settings.parameters.empty() ? scene.default_parameters() : settings.parameters;
-  if (settings.actuators.any()) actuators.emplace(settings.actuators, n);
+  if (settings.actuators.any()) actuators.emplace(settings.actuators, n_u);
   if (settings.sensors.any() || settings.faults.any())
     sensors.emplace(settings.sensors, settings.seed, n, rate_hz);
   if (!settings.faults.any()) return;

@@ -36,7 +36,7 @@ class Hardware {
   bool friction_scaled() const { return scene_friction && faults->friction() != 1; }
 
  private:
-  Vector asked_, faulted_;
+  Vector asked_, faulted_;  ///< n_u
   bool was_asked_ = false;
 };
 

@@ -14,14 +14,15 @@ Plant::Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::spa
       settings_(std::move(settings)),
       rate_hz_(rate_hz),
       n_(psi0.size()),
+      n_u_(dynamics_.scene().motors().size()),
       x_(Vector::Zero(static_cast<Eigen::Index>(2 * n_ + 1))),
-      applied_(Vector::Zero(static_cast<Eigen::Index>(n_))),
+      applied_(Vector::Zero(static_cast<Eigen::Index>(n_u_))),
       before_(applied_),
-      scratch_(applied_),
-      integrator_({settings_.integrator, settings_.substeps, settings_.local_error}, applied_.size(),
+      scratch_(Vector::Zero(static_cast<Eigen::Index>(n_))),
+      integrator_({settings_.integrator, settings_.substeps, settings_.local_error}, scratch_.size(),
                   x_.size()),
       rows_(stage_rows(settings_.integrator)),
-      linearisation_(Vector::Zero(3 * applied_.size() * applied_.size())),
+      linearisation_(Vector::Zero(scratch_.size() * (2 * scratch_.size() + applied_.size()))),
       timed_(constraints_depend_on_time(dynamics_.scene()) || loads_depend_on_time(dynamics_.scene())) {
   std::copy(psi0.begin(), psi0.end(), x_.data());
   // A delay within a billionth of whole ticks is whole.
@@ -88,7 +89,7 @@ void Plant::acceleration(std::span<double> psidd) {
 void Plant::saturate(std::span<const double> tau) { hardware_ ? saturate_by_hardware(tau) : limit(tau); }
 
 void Plant::limit(std::span<const double> tau) {
-  for (std::size_t i = 0; i < n_; ++i) {
+  for (std::size_t i = 0; i < n_u_; ++i) {
     const double limit = settings_.torque_limit.empty() ? HUGE_VAL : settings_.torque_limit[i];
     applied_[static_cast<Eigen::Index>(i)] = std::clamp(tau[i], -limit, limit);
   }
@@ -102,17 +103,17 @@ void Plant::integrate_held(double t, double length) {
     linearise(t + after, x, jacobian);
   };
   if (!facts(settings_.integrator).jacobian) return integrator_.advance(x_, length, rate, linear);
-  before_ = x_.head(static_cast<Eigen::Index>(n_));
+  before_ = x_.head(before_.size());
   integrator_.advance(x_, length, rate, linear);
   add_work_since_before();
 }
 
-/// The work of the torque held since psi was before_, which methods with a Jacobian leave alone: tau . (psi+
+/// The work of the torque held since the motors' psi was before_, which methods with a Jacobian leave alone:
+/// tau . (psi+
 /// - psi).
 void Plant::add_work_since_before() {
-  const auto n = static_cast<Eigen::Index>(n_);
-  before_ = x_.head(n) - before_;
-  x_[2 * n] += applied_.dot(before_);
+  before_ = x_.head(before_.size()) - before_;
+  x_[static_cast<Eigen::Index>(2 * n_)] += applied_.dot(before_);
 }
 
 /// psi' = psi', psi'' by forward dynamics, work' = tau . psi'.
@@ -121,7 +122,7 @@ void Plant::rate_of(double t, const Vector& x, Vector& dx) {
   std::copy(psid.begin(), psid.end(), dx.data());
   dynamics_.forward_dynamics(psi, psid, applied(), t, {dx.data() + n_, n_});
   const auto n = static_cast<Eigen::Index>(n_);
-  dx[2 * n] = applied_.dot(x.segment(n, n));
+  dx[2 * n] = applied_.dot(x.segment(n, applied_.size()));
 }
 
 void Plant::linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian) {

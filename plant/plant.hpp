@@ -27,10 +27,10 @@ class Plant {
   double time() const { return static_cast<double>(tick_) / rate_hz_; }  ///< t_k = k / rate
   std::span<const double> psi() const { return {x_.data(), n_}; }
   std::span<const double> psid() const { return {x_.data() + n_, n_}; }
-  /// The work that the motors have done, J: the integral of tau . psi'.
+  /// The work that the motors have done, J: the integral of tau . psi' over them.
   double work() const { return x_[static_cast<Eigen::Index>(2 * n_)]; }
-  /// What acts from time() on, after delay, saturation and what the drives make of it, N m or N.
-  std::span<const double> applied() const { return {applied_.data(), n_}; }
+  /// What acts from time() on (n_u), after delay, saturation and what the drives make of it, N m or N.
+  std::span<const double> applied() const { return span_of(applied_); }
 
   /// What the sensors say at tick(), n each; true where a reading is older than it should be.
   bool measure(std::span<double> psi, std::span<double> psid);
@@ -88,18 +88,18 @@ class Plant {
   Dynamics dynamics_;
   PlantSettings settings_;
   double rate_hz_;
-  std::size_t n_;
+  std::size_t n_, n_u_;
   std::int64_t tick_ = 0;
   std::size_t delay_ticks_ = 0;  ///< whole ticks of the command delay
   double delay_rest_ = 0;        ///< and the rest, s
   bool locked_ = false;
-  double within_ = 0;  ///< s after the tick's start that take_effect has reached
-  Vector x_;           ///< psi, psid, work
-  Vector applied_, before_, scratch_;
-  std::vector<Vector> commands_;  ///< a ring by tick, as long as the delay needs
+  double within_ = 0;                  ///< s after the tick's start that take_effect has reached
+  Vector x_;                           ///< psi, psid, work
+  Vector applied_, before_, scratch_;  ///< n_u, n_u (of psi), n (of psidd)
+  std::vector<Vector> commands_;       ///< a ring by tick, as long as the delay needs
   Integrator integrator_;
   StageRows rows_;
-  Vector linearisation_;                ///< 3 n^2, of methods with a Jacobian
+  Vector linearisation_;                ///< n (2 n + n_u), of methods with a Jacobian
   bool timed_;                          ///< the forward dynamics depend on time
   std::unique_ptr<Hardware> hardware_;  ///< null: ideal
 };

@@ -62,7 +62,7 @@ void Plant::integrate_driven(double t, double length) {
     linearise(t + after, x, jacobian);
   };
   const bool jacobian = facts(settings_.integrator).jacobian;  // then there are no actuators
-  if (jacobian) before_ = x_.head(static_cast<Eigen::Index>(n_));
+  if (jacobian) before_ = x_.head(before_.size());
   while (done < length) {
     double end = actuators ? actuators->next_kink(done) : length;
     if (!(end < length * (1 - 1e-9))) end = length;

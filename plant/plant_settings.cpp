@@ -88,12 +88,12 @@ PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene, doubl
                        "control: continuous has no ticks to delay; expected control: held");
   }
   if (const NodePtr limit = entry.find("torque_limit")) {
-    settings.torque_limit = read_motor_values(limit, scene, kMoment, kForce, "the torque limit");
+    settings.torque_limit = read_values(limit, scene.motors(), kTorque, "the torque limit");
     for (const double value : settings.torque_limit)
       if (value <= 0) throw InputError("out_of_range", limit->place, "a torque limit that is not positive");
   }
   if (const NodePtr initial = entry.find("initial"))
-    settings.initial_psi = read_motor_values(initial, scene, kPure, kLength, "the initial position");
+    settings.initial_psi = read_values(initial, scene.independent, kPosition, "the initial position");
   if (const NodePtr sensors = entry.find("sensors"))
     settings.sensors = read_sensor_settings(sensors, scene, rate_hz);
   if (const NodePtr actuators = entry.find("actuators"))

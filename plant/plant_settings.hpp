@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dynamics/scene/motor_values.hpp"
+#include "dynamics/scene/coordinate_values.hpp"
 #include "dynamics/scene/scene.hpp"
 #include "integrators/method.hpp"
 #include "notation/document.hpp"
@@ -22,7 +22,7 @@ struct PlantSettings {
   double local_error =
       0;  ///< above 0: what each step (automatic: each tick) may add, as error_size measures it
   double command_delay = 0;          ///< s: COMMAND(k) acts from t_k + command_delay on
-  std::vector<double> torque_limit;  ///< n, N m or N: what the motors can give; empty: no limit
+  std::vector<double> torque_limit;  ///< n_u, N m or N: what the motors can give; empty: no limit
   std::vector<double> initial_psi;   ///< n, rad or m: where it stands at first; empty: at the path's start
   SensorSettings sensors;
   ActuatorSettings actuators;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/scene/check_physical.hpp"
+#include "dynamics/scene/coordinate_values.hpp"
 #include "notation/value.hpp"
 #include "plant/faults.hpp"
 
@@ -74,33 +75,37 @@ class Reader {
         throw InputError("unknown_key", node->place, fmt::format("'{}' {}", key, why));
   }
 
-  /// A motor's name, its number from 1 (psi_1 in trajectory.csv), or `all`.
-  int read_index(const Node& node) const {
-    const std::string& text = text_of(node, "a motor");
-    if (text == "all") return -1;
-    for (std::size_t i = 0; i < scene_.motors().size(); ++i)
-      if (scene_.motors()[i].name == text) return static_cast<int>(i);
+  /// One's name, its number from 1 (psi_1 in trajectory.csv), or `all`.
+  static int read_index(const Node& node, std::span<const Scene::Independent> coordinates) {
+    const std::string noun(noun_for(coordinates));
+    const std::string& text = text_of(node, "a " + noun);
     if (text.find_first_not_of("0123456789") == std::string::npos)
-      return static_cast<int>(whole_number_of(node, 1, scene_.n(), "the number of a motor")) - 1;
+      return static_cast<int>(
+                 whole_number_of(node, 1, static_cast<long>(coordinates.size()), "the number of a " + noun)) -
+             1;
     std::vector<std::string> words{"all"};
-    for (const auto& motor : scene_.motors()) words.push_back(motor.name);
-    word_of(node, words, "the motor");  // throws
-    return -1;
+    for (const auto& coordinate : coordinates) words.push_back(coordinate.name);
+    return static_cast<int>(word_of(node, words, "the " + noun)) - 1;
   }
 
   void read_channel(const Mapping& entry, const NodePtr& which, bool motor, Fault& fault) const {
     refuse(entry, {"value"}, "belongs to a parameter; expected kind and magnitude");
     fault.target = motor ? Target::motor : Target::sensor;
-    fault.index = read_index(*which);
+    const auto coordinates =
+        motor ? scene_.motors() : std::span<const Scene::Independent>(scene_.independent);
+    fault.index = read_index(*which, coordinates);
     // All but the last, which is parameters' and friction's.
     static const std::vector<std::string> kinds(Fault::kKinds.begin(), Fault::kKinds.end() - 1);
     fault.kind = static_cast<Kind>(word_of(*entry.at("kind"), kinds, "the kind of fault"));
     const Magnitude what = magnitude_of(fault.kind);
     if (what == Magnitude::none) return refuse(entry, {"magnitude"}, "says nothing with this kind of fault");
-    const bool linear = scene_.motors()[static_cast<std::size_t>(std::max(fault.index, 0))].linear;
-    const Dimension value = motor ? (linear ? kForce : kMoment) : (linear ? kLength : kPure);
-    const Dimension wanted = what == Magnitude::value ? value : what == Magnitude::time ? kTime : kPure;
-    fault.magnitude = number_of(*entry.at("magnitude"), wanted, "the magnitude of a fault");
+    const Quantity& wanted = what == Magnitude::time    ? kSeconds
+                             : what == Magnitude::share ? kNumber
+                             : motor                    ? kTorque
+                                                        : kPosition;
+    fault.magnitude = number_of(*entry.at("magnitude"),
+                                wanted.of(coordinates[static_cast<std::size_t>(std::max(fault.index, 0))]),
+                                "the magnitude of a fault");
   }
 
   void read_change(const Mapping& entry, const NodePtr& parameter, const NodePtr& friction,

@@ -37,8 +37,8 @@ bool has_damping(const Scene& scene) {
 ScaledFriction::ScaledFriction(const Scene& scene, std::span<const double> parameters, Evaluation how,
                                bool linearises)
     : undamped_(undamped_dynamics(scene, parameters, how, linearises)),
-      psidd_(scene.motors().size()),
-      slopes_(3 * scene.motors().size() * scene.motors().size()) {}
+      psidd_(scene.independent.size()),
+      slopes_(psidd_.size() * (2 * psidd_.size() + scene.motors().size())) {}
 
 void ScaledFriction::scale(std::span<const double> psi, std::span<const double> psid,
                            std::span<const double> tau, double t, double factor, std::span<double> psidd) {

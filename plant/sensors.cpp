@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "notation/value.hpp"
-#include "plant/each_motor.hpp"
+#include "plant/read_each.hpp"
 
 namespace mixloop {
 namespace {
@@ -19,8 +19,9 @@ constexpr std::int64_t kMostDelayTicks = 10000;
 
 std::vector<std::int64_t> whole_ticks(const NodePtr& node, const Scene& scene, double rate_hz) {
   std::vector<std::int64_t> ticks;
-  for (const double delay :
-       read_each_motor(node, scene, kTime, kTime, {0, kLongestDelay, "0 to 1 s"}, "the sensors' delay")) {
+  const auto delays =
+      read_each(node, scene.independent, kSeconds, {0, kLongestDelay, "0 to 1 s"}, "the sensors' delay");
+  for (const double delay : delays) {
     const double exactly = delay * rate_hz;
     ticks.push_back(std::llround(exactly));
     if (std::abs(exactly - std::round(exactly)) > 1e-9 * std::max(1.0, exactly))
@@ -41,15 +42,15 @@ SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, dou
   const Mapping entry(node, "the sensors",
                       {"resolution", "noise", "bias", "delay", "drop", "velocity", "velocity_filter"});
   const auto positions = [&](const char* key, const Range& range, const char* what) {
-    return read_each_motor(entry.find(key), scene, kPure, kLength, range, what);
+    return read_each(entry.find(key), scene.independent, kPosition, range, what);
   };
   SensorSettings settings;
   settings.resolution = positions("resolution", kNotNegative, "the resolution");
   settings.noise = positions("noise", kNotNegative, "the noise");
   settings.bias = positions("bias", {-kNoLimit, kNoLimit, "a finite value"}, "the bias");
   settings.delay = whole_ticks(entry.find("delay"), scene, rate_hz);
-  settings.drop = read_each_motor(entry.find("drop"), scene, kPure, kPure, {0, 1, "a probability, 0 to 1"},
-                                  "the share of readings that are dropped");
+  settings.drop = read_each(entry.find("drop"), scene.independent, kNumber, {0, 1, "a probability, 0 to 1"},
+                            "the share of readings that are dropped");
   if (const NodePtr velocity = entry.find("velocity"))
     settings.differentiated = word_of(*velocity, {"measured", "differentiated"}, "the velocity") == 1;
   if (const NodePtr filter = entry.find("velocity_filter")) {

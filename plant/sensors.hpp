@@ -10,8 +10,8 @@
 
 namespace mixloop {
 
-/// What lies between the motors' positions and what is said of them. Vectors have a value a motor, in rad or
-/// m; empty: not so.
+/// What lies between the independent coordinates and what is said of them. Vectors have a value for each, in
+/// rad or m; empty: not so.
 struct SensorSettings {
   std::vector<double> resolution;  ///< readings are whole multiples of it, the nearest
   std::vector<double> noise;       ///< standard deviation of a normal one, before rounding

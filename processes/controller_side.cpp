@@ -33,15 +33,17 @@ ControllerSide controller_side(GuardedController& controller, const Experiment& 
     controller.begin();
     if (first.seq == 0) require_start(controller, first.psi_measured, plan);
   };
-  const auto later = std::make_shared<ExtrapolatedReference>(plan.n());
+  const auto later = std::make_shared<ExtrapolatedReference>(plan.n_u());
   side.compute = [&, later](const state_t& state, const reference_t& message, std::int64_t ahead,
                             std::span<double> tau) {
-    const double t = static_cast<double>(state.seq) / experiment.rate_hz;
-    const bool stale = (state.flags & state_t::FLAG_STALE) != 0;
+    const Measurement now{.psi = state.psi_measured,
+                          .psid = state.psid_measured,
+                          .t = static_cast<double>(state.seq) / experiment.rate_hz,
+                          .stale = (state.flags & state_t::FLAG_STALE) != 0};
     const Reference heard = reference_in(message);
     const Reference desired =
         ahead == 0 ? heard : later->take(heard, static_cast<double>(ahead) / experiment.rate_hz);
-    return flags_of(controller.torque(state.psi_measured, state.psid_measured, stale, desired, t, tau));
+    return flags_of(controller.torque(now, desired, tau));
   };
   side.safe = [&](std::span<double> tau) { controller.safe_torque(tau); };
   return side;

@@ -9,6 +9,7 @@ namespace mixloop {
 
 PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick) {
   return {.n = experiment.scene->n(),
+          .n_u = experiment.scene->n_u(),
           .session = line.session,
           .config = config_of(common_ground(experiment)),
           .rate_hz = experiment.rate_hz,

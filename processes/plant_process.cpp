@@ -90,6 +90,7 @@ Ending PlantSession::drive(Loop& loop, std::int64_t next_session) {
 PlantOptions PlantSession::options(std::int64_t session) const {
   const std::string& speed = line_.speed;
   return {.n = experiment_.scene->n(),
+          .n_u = experiment_.scene->n_u(),
           .last_tick = plan_.ticks(),
           .rate_hz = experiment_.rate_hz,
           .speed = speed_of(!speed.empty()    ? speed

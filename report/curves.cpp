@@ -12,15 +12,15 @@ constexpr double kStanding = 1e-9;  // m/s: below it a path has no direction of 
 
 }  // namespace
 
-Curves::Curves(std::size_t n, std::size_t m, std::vector<int> axes, double rate_hz, std::size_t capacity)
-    : n_(n), axes_(std::move(axes)), rate_hz_(rate_hz) {
+Curves::Curves(const RunSizes& sizes, std::vector<int> axes, double rate_hz, std::size_t capacity)
+    : axes_(std::move(axes)), rate_hz_(rate_hz) {
   const auto add_numbered = [&](const std::string& name, std::size_t count) {
     for (std::size_t i = 1; i <= count; ++i)
       curves_.push_back({name + "_" + std::to_string(i), Envelope(capacity)});
   };
-  for (const char* name : {"psi", "psid", "psi_desired", "tau", "tau_applied", "motor_power"})
-    add_numbered(name, n);
-  add_numbered("q", m);
+  for (const char* name : {"psi", "psid"}) add_numbered(name, sizes.n);
+  for (const char* name : {"psi_desired", "tau", "tau_applied", "motor_power"}) add_numbered(name, sizes.n_u);
+  add_numbered("q", sizes.m);
   for (const char* kind : {"desired", "actual"})
     for (const char* what : {"position", "velocity", "acceleration"})
       for (const char axis : {'x', 'y', 'z'})
@@ -35,7 +35,7 @@ void Curves::add(const Tick& tick) {
   next_ = 0;
   for (const auto* values : {&tick.psi, &tick.psid, &tick.psi_desired, &tick.tau, &tick.tau_applied})
     for (const double value : *values) put(value);
-  for (std::size_t i = 0; i < n_; ++i) put(tick.tau_applied[i] * tick.psid[i]);
+  for (std::size_t i = 0; i < tick.tau_applied.size(); ++i) put(tick.tau_applied[i] * tick.psid[i]);
   for (const double value : tick.q) put(value);
   for (const auto* motion : {&tick.desired, &tick.actual})
     for (const auto* vector : {&motion->position, &motion->velocity, &motion->acceleration})

@@ -19,7 +19,7 @@ struct TrackingError {
 class Curves {
  public:
   /// `axes`: which of x, y, z the path prescribes; `capacity`: see Envelope.
-  Curves(std::size_t n, std::size_t m, std::vector<int> axes, double rate_hz, std::size_t capacity);
+  Curves(const RunSizes& sizes, std::vector<int> axes, double rate_hz, std::size_t capacity);
 
   /// The next tick; one that nothing is known of leaves a gap.
   void add(const Tick& tick);
@@ -41,7 +41,6 @@ class Curves {
   void put_energy(const Tick& tick);
   void measure(double error, double t);
 
-  std::size_t n_;
   std::vector<int> axes_;
   double rate_hz_;
   std::vector<Curve> curves_;

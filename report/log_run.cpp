@@ -41,20 +41,21 @@ struct Slot {
 /// Puts the messages of a session together, tick by tick.
 class Assembly {
  public:
-  Assembly(const LogSession& session, double rate_hz, std::size_t m,
+  Assembly(const LogSession& session, double rate_hz, const RunSizes& sizes,
            const std::function<void(Tick&)>& on_tick)
       : session_(session),
         rate_hz_(rate_hz),
+        blank_(sizes),
         on_tick_(on_tick),
         state_(session.n),
-        reference_(session.n),
-        command_(session.n),
+        reference_(static_cast<int>(sizes.n_u)),
+        command_(static_cast<int>(sizes.n_u)),
         truth_(session.n),
         next_(session.first_tick),
         latest_(session.first_tick - 1) {
-    slots_.assign(kWindow, Slot{.tick = Tick(static_cast<std::size_t>(session.n), m)});
-    last_tau_.assign(static_cast<std::size_t>(session.n), kUnknown);
-    last_psi_ = last_tau_;
+    slots_.assign(kWindow, Slot{.tick = blank_});
+    last_tau_ = blank_.tau;
+    last_psi_ = blank_.psi;
   }
 
   void add(std::string_view kind, const LogEvent& event) {
@@ -133,7 +134,7 @@ class Assembly {
   void on_truth(const truth_t& message, Slot& slot, std::int64_t) {
     facts.has_truth = true;
     Tick& tick = slot.tick;
-    copy(message.tau_applied, tick.tau_applied);
+    std::copy_n(message.tau_applied.begin(), tick.tau_applied.size(), tick.tau_applied.begin());
     copy_motion(message.position, message.velocity, message.acceleration, tick.actual);
     tick.kinetic_energy = message.kinetic_energy;
     tick.potential_energy = message.potential_energy;
@@ -164,8 +165,7 @@ class Assembly {
     tick.t = static_cast<double>(next_) / rate_hz_;
     add_work(tick);
     on_tick_(tick);
-    const std::size_t n = tick.psi.size(), m = tick.q.size();
-    slot = Slot{.tick = Tick(n, m)};
+    slot = Slot{.tick = blank_};
     ++next_;
   }
 
@@ -174,7 +174,7 @@ class Assembly {
   void add_work(Tick& tick) {
     if (!std::isnan(tick.psi[0])) {
       double work = 0;
-      for (std::size_t i = 0; i < tick.psi.size(); ++i) work += last_tau_[i] * (tick.psi[i] - last_psi_[i]);
+      for (std::size_t i = 0; i < last_tau_.size(); ++i) work += last_tau_[i] * (tick.psi[i] - last_psi_[i]);
       if (!std::isnan(work)) work_ += work;
       last_psi_ = tick.psi;
       if (std::isnan(tick.work)) tick.work = work_;
@@ -184,6 +184,7 @@ class Assembly {
 
   const LogSession& session_;
   double rate_hz_;
+  const Tick blank_;
   const std::function<void(Tick&)>& on_tick_;
   Inbox<state_t> state_;
   Inbox<reference_t> reference_;
@@ -203,17 +204,23 @@ std::string_view kind_of(const LogEvent& event, const std::string& prefix) {
 
 std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std::string& prefix) {
   LogReader reader(log);
-  const auto fingerprint = static_cast<std::uint64_t>(state_t::getHash());
   std::map<std::int64_t, LogSession> found;
+  std::map<std::int64_t, std::int32_t> motors;
   std::map<std::int64_t, std::int64_t> utime;  // of the session's last tick
   while (const LogEvent* event = reader.next()) {
-    if (kind_of(*event, prefix) != "STATE") continue;
     const auto header = peek(event->data);
+    if (!header || !sound(*header)) continue;
     std::uint64_t type = 0;
-    for (std::size_t i = 0; header && i < 8; ++i) type = type << 8 | event->data[i];
-    if (!header || !sound(*header) || type != fingerprint) continue;
+    for (std::size_t i = 0; i < 8; ++i) type = type << 8 | event->data[i];
+    const auto is = [&](const char* kind, std::int64_t fingerprint) {
+      return kind_of(*event, prefix) == kind && type == static_cast<std::uint64_t>(fingerprint);
+    };
+    if (is("COMMAND", command_t::getHash())) motors.try_emplace(header->session, header->n);
+    if (!is("STATE", state_t::getHash())) continue;
     auto [at, is_new] = found.try_emplace(
-        header->session, LogSession{header->session, header->n, 0, header->seq, header->seq, 0});
+        header->session,
+        LogSession{
+            .session = header->session, .n = header->n, .first_tick = header->seq, .last_tick = header->seq});
     LogSession& session = at->second;
     ++session.states;
     session.first_tick = std::min(session.first_tick, header->seq);
@@ -225,6 +232,7 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
   std::vector<LogSession> sessions;
   for (auto& [id, session] : found) {
     session.rate_hz = rate_of(session.last_tick, utime[id]);
+    session.n_u = motors[id];
     sessions.push_back(session);
   }
   std::stable_sort(sessions.begin(), sessions.end(),
@@ -237,9 +245,9 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
 }
 
 LogFacts read_log(const std::filesystem::path& log, const std::string& prefix, const LogSession& session,
-                  double rate_hz, std::size_t m, const std::function<void(Tick&)>& on_tick) {
+                  double rate_hz, const RunSizes& sizes, const std::function<void(Tick&)>& on_tick) {
   LogReader reader(log);
-  Assembly assembly(session, rate_hz, m, on_tick);
+  Assembly assembly(session, rate_hz, sizes, on_tick);
   while (const LogEvent* event = reader.next())
     if (const auto kind = kind_of(*event, prefix); !kind.empty()) assembly.add(kind, *event);
   assembly.finish();

@@ -14,7 +14,8 @@ namespace mixloop {
 /// One run of a plant in a log.
 struct LogSession {
   std::int64_t session = 0;
-  std::int32_t n = 0;
+  std::int32_t n = 0;       ///< measured coordinates
+  std::int32_t n_u = 0;     ///< motors, by COMMAND; 0: there is none
   std::int64_t states = 0;  ///< STATE messages, those sent again included
   std::int64_t first_tick = 0, last_tick = 0;
   double rate_hz = 0;  ///< as tick and plant time tell it
@@ -41,8 +42,8 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
 
 /// Calls `on_tick` for each tick of a session from its first to its last, gaps included; it may complete the
 /// tick. Without TRUTH the torque applied is the commanded one, and the motors' work is that of a torque held
-/// from tick to tick. `rate_hz`: as the session tells it, or better known.
+/// from tick to tick. `rate_hz` and `sizes`: as the session tells them, or better known.
 LogFacts read_log(const std::filesystem::path& log, const std::string& prefix, const LogSession& session,
-                  double rate_hz, std::size_t m, const std::function<void(Tick&)>& on_tick);
+                  double rate_hz, const RunSizes& sizes, const std::function<void(Tick&)>& on_tick);
 
 }  // namespace mixloop

@@ -25,10 +25,10 @@ ordered_json error_json(const TrackingError& error) {
 
 ordered_json names_json(const ReportedRun& run) {
   auto motors = ordered_json::array(), coordinates = ordered_json::array();
-  for (std::size_t i = 0; i < run.n; ++i)
-    motors.push_back({{"name", run.scene ? run.scene->independent[i].name : "psi" + std::to_string(i + 1)},
-                      {"linear", run.scene && run.scene->independent[i].linear}});
-  for (std::size_t j = 0; j < run.m; ++j) {
+  for (std::size_t i = 0; i < run.sizes.n_u; ++i)
+    motors.push_back({{"name", run.scene ? run.scene->motors()[i].name : "psi" + std::to_string(i + 1)},
+                      {"linear", run.scene && run.scene->motors()[i].linear}});
+  for (std::size_t j = 0; j < run.sizes.m; ++j) {
     bool linear = false;
     for (const auto& transform : run.scene->transforms)
       linear |= transform.coordinate == static_cast<int>(j) && transform.prismatic;

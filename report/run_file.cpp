@@ -99,7 +99,7 @@ RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& op
   RunFile run{.label = folder.filename().string(),
               .source = folder.string(),
               .trajectory = folder / "trajectory.csv"};
-  run.n = TrajectoryReader(run.trajectory).n();
+  run.sizes = TrajectoryReader(run.trajectory).sizes();
   run.result = read_json(folder / "result.json");
   run.label = run.result.value("experiment", run.label);
   run.rate_hz = run.result.value("rate", known.rate_hz > 0 ? known.rate_hz : 1000.0);
@@ -114,7 +114,11 @@ RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& op
 RunFile opened_log(const std::filesystem::path& log, const ReadOptions& options, const Known& known) {
   RunFile run{.label = log.stem().string(), .source = log.string(), .from_log = true, .log = log};
   run.session = chosen_session(log, options, options.session, run.notes);
-  run.n = static_cast<std::size_t>(run.session->n);
+  run.sizes.n = static_cast<std::size_t>(run.session->n);
+  const auto commanded = static_cast<std::size_t>(run.session->n_u);
+  run.sizes.n_u = known.scene                                 ? known.scene->motors().size()
+                  : commanded > 0 && commanded <= run.sizes.n ? commanded
+                                                              : run.sizes.n;
   run.first_tick = run.session->first_tick;
   if (known.inputs.is_object()) run.label = known.inputs.value("name", run.label);
   run.rate_hz = known.rate_hz > 0 ? known.rate_hz : run.session->rate_hz;
@@ -139,7 +143,7 @@ std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism,
   std::optional<LogFacts> facts;
   std::vector<double> ages;
   if (run.session) {
-    facts = read_log(run.log, run.prefix, *run.session, run.rate_hz, 0, [&](const Tick& tick) {
+    facts = read_log(run.log, run.prefix, *run.session, run.rate_hz, run.sizes, [&](const Tick& tick) {
       ages.resize(static_cast<std::size_t>(tick.k), kUnknown);
       ages.push_back(tick.command_age);
     });
@@ -150,7 +154,7 @@ std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism,
     take_arrivals(arrivals, run.rate_hz, ages);
     run.notes.push_back("The ages of commands are the plant's own (ages.csv).");
   }
-  TrajectoryReader(run.trajectory).read(run.m, [&](Tick& tick) {
+  TrajectoryReader(run.trajectory).read(run.sizes.m, [&](Tick& tick) {
     if (mechanism) mechanism->complete(tick);
     if (const auto k = static_cast<std::size_t>(tick.k); k < ages.size()) tick.command_age = ages[k];
     on_tick(tick);
@@ -159,7 +163,7 @@ std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism,
 }
 
 LogFacts read_log_alone(RunFile& run, Mechanism* mechanism, const std::function<void(Tick&)>& on_tick) {
-  LogFacts facts = read_log(run.log, run.prefix, *run.session, run.rate_hz, run.m, [&](Tick& tick) {
+  LogFacts facts = read_log(run.log, run.prefix, *run.session, run.rate_hz, run.sizes, [&](Tick& tick) {
     if (mechanism) mechanism->complete(tick);
     on_tick(tick);
   });
@@ -194,10 +198,15 @@ RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) 
   run.inputs = known.inputs;
   run.scene = known.scene;
   run.parameters = known.parameters;
-  if (run.scene) run.m = static_cast<std::size_t>(run.scene->m());
-  if (run.scene && static_cast<std::size_t>(run.scene->n()) != run.n)
-    throw InputError("wrong_size", {run.source},
-                     fmt::format("{} motors; the scene has {}", run.n, run.scene->n()));
+  if (!run.scene) return run;
+  const auto require_as_many = [&](const char* what, std::size_t has, std::size_t scene_has) {
+    if (has != scene_has)
+      throw InputError("wrong_size", {run.source},
+                       fmt::format("{} {}; the scene has {}", has, what, scene_has));
+  };
+  require_as_many("motors", run.sizes.n_u, run.scene->motors().size());
+  require_as_many("independent coordinates", run.sizes.n, run.scene->independent.size());
+  run.sizes.m = run.scene->coordinates.size();
   return run;
 }
 

@@ -33,7 +33,7 @@ struct RunFile {
   std::vector<double> parameters;         ///< of the plant
   double rate_hz = 0;
   std::int64_t first_tick = 0;
-  std::size_t n = 0, m = 0;
+  RunSizes sizes;
   std::vector<std::string> notes;  ///< what a reader must know of where the numbers come from
 };
 

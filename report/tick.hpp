@@ -17,16 +17,27 @@ struct Motion {
   Eigen::Vector3d velocity = position, acceleration = position;
 };
 
+/// How many coordinates a run has: independent ones, of them motors, and dependent ones.
+struct RunSizes {
+  std::size_t n = 0, n_u = 0, m = 0;
+};
+
 /// All that is known of one tick of a run; the rest is kUnknown. SI, radians.
 struct Tick {
-  explicit Tick(std::size_t n, std::size_t m = 0)
-      : psi(n, kUnknown), psid(psi), psi_desired(psi), tau(psi), tau_applied(psi), q(m, kUnknown) {}
+  explicit Tick(const RunSizes& sizes)
+      : psi(sizes.n, kUnknown),
+        psid(psi),
+        psi_desired(sizes.n_u, kUnknown),
+        tau(psi_desired),
+        tau_applied(psi_desired),
+        q(sizes.m, kUnknown) {}
 
   std::int64_t k = 0;
   double t = kUnknown;
-  std::vector<double> psi, psid, psi_desired;  ///< n
-  std::vector<double> tau, tau_applied;        ///< n, commanded, and after the plant's limits and delay
-  std::vector<double> q;                       ///< m
+  std::vector<double> psi, psid;         ///< n
+  std::vector<double> psi_desired;       ///< n_u
+  std::vector<double> tau, tau_applied;  ///< n_u, commanded, and after the plant's limits and delay
+  std::vector<double> q;                 ///< m
   Motion desired, actual;
   double kinetic_energy = kUnknown, potential_energy = kUnknown, work = kUnknown;  ///< J
   double command_age = kUnknown;  ///< s, from STATE(k) to COMMAND(k) as the logger received them

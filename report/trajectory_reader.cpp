@@ -71,8 +71,14 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& file) : file_(fi
   const std::size_t end = std::min(text_.find('\n'), text_.size());
   names_ = split(text_.substr(0, end));
   at_ = std::min(end + 1, text_.size());
-  while (std::find(names_.begin(), names_.end(), fmt::format("psi_{}", n_ + 1)) != names_.end()) ++n_;
-  if (names_.front() == "t" && n_ > 0) return;
+  const auto columns = [&](const char* name) {
+    std::size_t count = 0;
+    while (std::ranges::find(names_, fmt::format("{}_{}", name, count + 1)) != names_.end()) ++count;
+    return count;
+  };
+  sizes_ = {.n = columns("psi"), .n_u = columns("tau")};
+  if (sizes_.n_u == 0) sizes_.n_u = sizes_.n;
+  if (names_.front() == "t" && sizes_.n > 0) return;
   const InputError error("not_a_trajectory", {file.string(), 1},
                          "no header that begins with t,psi_1; expected the trajectory.csv that --out keeps");
   munmap(const_cast<char*>(text_.data()), text_.size());
@@ -82,7 +88,7 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& file) : file_(fi
 TrajectoryReader::~TrajectoryReader() { munmap(const_cast<char*>(text_.data()), text_.size()); }
 
 void TrajectoryReader::read(std::size_t m, const std::function<void(Tick&)>& on_tick) {
-  Tick tick(n_, m);
+  Tick tick({.n = sizes_.n, .n_u = sizes_.n_u, .m = m});
   std::vector<double*> places;
   for (const auto& name : names_) places.push_back(place_of(name, tick));
 

@@ -19,7 +19,8 @@ class TrajectoryReader {
   TrajectoryReader(const TrajectoryReader&) = delete;
   TrajectoryReader& operator=(const TrajectoryReader&) = delete;
 
-  std::size_t n() const { return n_; }  ///< motors
+  /// By the columns psi_ and tau_; m is not told.
+  const RunSizes& sizes() const { return sizes_; }
   /// Calls `on_tick` for every line, k counting from 0; it may complete the tick. Throws InputError for a
   /// line that has not as many numbers as the header has names.
   void read(std::size_t m, const std::function<void(Tick&)>& on_tick);
@@ -29,7 +30,7 @@ class TrajectoryReader {
   std::string_view text_;  ///< of the whole file, mapped
   std::size_t at_ = 0;     ///< behind the header
   std::vector<std::string_view> names_;
-  std::size_t n_ = 0;
+  RunSizes sizes_;
 };
 
 }  // namespace mixloop

@@ -17,19 +17,20 @@ class Holding {
         controller_(make_controller(experiment)),
         plant_(plant_of(experiment, start, sampling, off)) {
     // What the control law lacks of an equilibrium at the reference.
-    const auto n = start.psi.size();
-    tau_ = Vector::Zero(n);
-    support_ = Vector::Zero(n);
-    const Vector zero = Vector::Zero(n), psi = start.psi;
+    const auto n_u = start.psi.size();
+    tau_ = Vector::Zero(n_u);
+    const PsiMotion still = with_free_at_home(*experiment.scene, {start.psi, {}, {}});
+    Vector needed(still.psi.size());
     Dynamics dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
                       {Purpose::inverse_dynamics});
-    dynamics.inverse_dynamics(span_of(psi), span_of(zero), span_of(zero), 0, span_of(support_));
-    controller_.torque(span_of(psi), span_of(zero), start_, 0, span_of(tau_));
-    support_ -= tau_;
+    dynamics.inverse_dynamics(span_of(still.psi), span_of(still.psid), span_of(still.psidd), 0,
+                              span_of(needed));
+    controller_.torque({span_of(still.psi), span_of(still.psid)}, start_, span_of(tau_));
+    support_ = needed.head(n_u) - tau_;
   }
 
   void tick() {
-    controller_.torque(plant_.psi(), plant_.psid(), start_, plant_.time(), span_of(tau_));
+    controller_.torque({plant_.psi(), plant_.psid(), plant_.time()}, start_, span_of(tau_));
     tau_ += support_;
     plant_.command(span_of(std::as_const(tau_)));
     plant_.advance();
@@ -40,13 +41,14 @@ class Holding {
  private:
   static Plant plant_of(const Experiment& experiment, const Reference& start, const Sampling& sampling,
                         double off) {
-    const Vector psi = start.psi.array() + off;
+    Vector psi = with_free_at_home(*experiment.scene, {start.psi, {}, {}}).psi;
+    psi.head(start.psi.size()).array() += off;
     PlantSettings settings = ideal(experiment.plant);
     settings.command_delay = sampling.delay;
     settings.torque_limit.clear();
     return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
                           {Purpose::forward_dynamics}),
-                 settings, 1 / sampling.tick, span_of(psi));
+                 settings, 1 / sampling.tick, span_of(std::as_const(psi)));
   }
 
   const Reference start_;

@@ -21,7 +21,7 @@ struct Limits {
   std::optional<double> longest_rk4_step;        ///< s, control at every stage
   std::optional<double> most_gain,
       least_gain;  ///< factors on all of Kp and Kv; no least: stable without them
-  std::vector<std::optional<double>> most_gain_of_motor;  ///< n: on a motor's own
+  std::vector<std::optional<double>> most_gain_of_motor;  ///< n_u: on a motor's own
 };
 
 Limits limits_of(const LinearLoop& loop, const Sampling& sampling);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/scene/fully_driven.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -14,22 +16,23 @@ Dynamics linear_dynamics(const std::shared_ptr<const Scene>& scene, const std::v
 }  // namespace
 
 Linearisation::Linearisation(const Experiment& experiment)
-    : settings_(experiment.controller),
+    : scene_(experiment.scene),
+      settings_(experiment.controller),
       plant_(linear_dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation)),
-      model_(linear_dynamics(experiment.controller_scene, experiment.controller_parameters,
+      model_(linear_dynamics(fully_driven(experiment.controller_scene), experiment.controller_parameters,
                              experiment.evaluation)) {}
 
 LinearLoop Linearisation::at(const Reference& reference, double t) {
-  const auto n = reference.psi.size();
-  const Matrix slopes = forward_dynamics_slopes(plant_, reference.psi, reference.psid, reference.psidd, t);
+  const PsiMotion at = whole_motion(*scene_, reference);
+  const auto n = at.psi.size(), n_u = reference.psi.size();
+  const Matrix slopes = forward_dynamics_slopes(plant_, at, t);
   if (!slopes.allFinite())
     throw RunFault("singular",
                    fmt::format("the mass matrix is singular at {:.6g} s: nothing to linearise", t));
-  LinearLoop loop{Matrix::Zero(2 * n, 2 * n), Matrix::Zero(2 * n, n),
-                  feedback(settings_, model_, reference, t)};
+  LinearLoop loop{Matrix::Zero(2 * n, 2 * n), Matrix::Zero(2 * n, n_u), feedback(settings_, model_, at, t)};
   loop.A.topRightCorner(n, n).setIdentity();
   loop.A.bottomRows(n) = slopes.leftCols(2 * n);
-  loop.B.bottomRows(n) = slopes.rightCols(n);
+  loop.B.bottomRows(n) = slopes.rightCols(n_u);
   return loop;
 }
 

@@ -11,7 +11,7 @@ namespace mixloop {
 /// frozen there: the reference's own motion is left out.
 struct LinearLoop {
   Matrix A;  ///< 2n x 2n
-  Matrix B;  ///< 2n x n
+  Matrix B;  ///< 2n x n_u
   Feedback feedback;
 };
 
@@ -20,10 +20,11 @@ class Linearisation {
  public:
   explicit Linearisation(const Experiment& experiment);
 
-  /// At a reference that the plant follows exactly.
+  /// At a reference that the plant follows exactly, its free coordinates at rest at home.
   LinearLoop at(const Reference& reference, double t);
 
  private:
+  const std::shared_ptr<const Scene> scene_;
   const ControllerSettings settings_;
   Dynamics plant_, model_;
 };

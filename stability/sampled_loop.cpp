@@ -28,21 +28,21 @@ double radius_of(const Eigen::VectorXcd& values) { return values.cwiseAbs().maxC
 }  // namespace
 
 Matrix sampled_transition(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling) {
-  const auto states = loop.A.rows(), n = loop.B.cols();
+  const auto states = loop.A.rows(), n_u = loop.B.cols();
   // A delay within a billionth of whole ticks is whole, as the plant has it.
   const auto d = static_cast<Eigen::Index>(std::floor(sampling.delay / sampling.tick + 1e-9));
   const double rest = std::max(0.0, sampling.delay - static_cast<double>(d) * sampling.tick);
   const Hold after(loop, sampling.tick - rest), before(loop, rest);
 
-  Matrix next = Matrix::Zero(states + n * (d + 1), states + n * (d + 1));
+  Matrix next = Matrix::Zero(states + n_u * (d + 1), states + n_u * (d + 1));
   next.topLeftCorner(states, states) = after.Phi * before.Phi;
-  next.block(0, states + n * d, states, n) = after.Phi * before.Gamma;  // u_{k-d-1}
+  next.block(0, states + n_u * d, states, n_u) = after.Phi * before.Gamma;  // u_{k-d-1}
   if (d == 0)
     next.topLeftCorner(states, states) += after.Gamma * gain;  // u_k = gain x_k
   else
-    next.block(0, states + n * (d - 1), states, n) = after.Gamma;  // u_{k-d}
-  next.block(states, 0, n, states) = gain;
-  next.block(states + n, states, n * d, n * d).setIdentity();
+    next.block(0, states + n_u * (d - 1), states, n_u) = after.Gamma;  // u_{k-d}
+  next.block(states, 0, n_u, states) = gain;
+  next.block(states + n_u, states, n_u * d, n_u * d).setIdentity();
   return next;
 }
 

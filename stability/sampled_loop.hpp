@@ -13,11 +13,11 @@ struct Sampling {
   double delay = 0;    ///< s: u(t_k) acts from t_k + delay on
 };
 
-/// The state's transition over one tick with the torque held from command to command, (2n + n (d + 1))
+/// The state's transition over one tick with the torque held from command to command, (2n + n_u (d + 1))
 /// square, d whole ticks of delay: states (x_k, u_{k-1}, ..., u_{k-d-1}).
 ///   x_{k+1} = e^{AT} x_k + G_0 u_{k-d} + G_1 u_{k-d-1},  delay = d T + r:
 ///   G_0 = int_0^{T-r} e^{As} ds B,  G_1 = e^{A(T-r)} int_0^r e^{As} ds B
-/// (Astrom & Wittenmark, Computer-Controlled Systems, 3rd ed., section 2.6). `gain` is n x 2n.
+/// (Astrom & Wittenmark, Computer-Controlled Systems, 3rd ed., section 2.6). `gain` is n_u x 2n.
 Matrix sampled_transition(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling);
 
 /// The largest magnitude of the transition's eigenvalues: the loop is stable below 1.

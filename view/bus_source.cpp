@@ -29,14 +29,14 @@ BusSource::BusSource(const BusOptions& bus, const Experiment& experiment, std::i
       path_(desired_path(experiment)),
       bus_(bus),
       state_(experiment.scene->n()),
-      reference_(experiment.scene->n()),
-      command_(experiment.scene->n()),
-      traces_(static_cast<std::size_t>(experiment.scene->n()), kTicksKept),
+      reference_(experiment.scene->n_u()),
+      command_(experiment.scene->n_u()),
+      traces_(experiment.scene->motors().size(), kTicksKept),
       errors_(experiment.scene, experiment.plant_parameters),
       drawing_(experiment.scene, experiment.plant_parameters) {
   for (auto& slot : slots_) {
     slot.pose.psi.resize(static_cast<std::size_t>(experiment.scene->n()));
-    slot.tau.resize(slot.pose.psi.size());
+    slot.tau.resize(experiment.scene->motors().size());
   }
   bus_.subscribe<&BusSource::on_state>(bus_.channel("STATE"), this);
   bus_.subscribe<&BusSource::on_reference>(bus_.channel("REFERENCE"), this);

@@ -23,9 +23,8 @@ RunFile opened(const std::filesystem::path& path, const ReadOptions& options) {
 
 LogSource::LogSource(const std::filesystem::path& path, const ReadOptions& options)
     : run_(opened(path, options)),
-      n_(run_.n),
       skeleton_(run_.scene, run_.parameters),
-      traces_(run_.n, std::size_t{1} << 32) {
+      traces_(run_.sizes.n_u, std::size_t{1} << 32) {
   std::vector<Eigen::Vector3d> way;
   read_ticks(run_, [&](const Tick& tick) {
     keep(tick);
@@ -64,7 +63,8 @@ std::string LogSource::newest(Cursor& cursor) {
 
 // A tick that the log lost shows the last one before it that there is.
 std::string LogSource::at_tick(std::int64_t k) {
-  const std::size_t width = 2 * n_ + 3;
+  const auto [n, n_u, m] = run_.sizes;
+  const std::size_t width = n + n_u + 3;
   auto index =
       static_cast<std::size_t>(std::clamp<std::int64_t>(k - run_.first_tick, 0, traces_.count() - 1));
   while (index > 0 && std::isnan(rows_[index * width])) --index;
@@ -73,9 +73,9 @@ std::string LogSource::at_tick(std::int64_t k) {
   pose.k = run_.first_tick + static_cast<std::int64_t>(index);
   pose.t = static_cast<double>(pose.k) / run_.rate_hz;
   pose.session = run_.session ? run_.session->session : 0;
-  pose.psi.assign(row, row + n_);
-  pose.tau.assign(row + n_, row + 2 * n_);
-  pose.desired = Eigen::Map<const Eigen::Vector3d>(row + 2 * n_);
+  pose.psi.assign(row, row + n);
+  pose.tau.assign(row + n, row + n + n_u);
+  pose.desired = Eigen::Map<const Eigen::Vector3d>(row + n + n_u);
   return pose_json(skeleton_, pose, k == run_.first_tick ? traces_.since(0, kMostPoints) : std::string());
 }
 

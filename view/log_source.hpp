@@ -21,8 +21,7 @@ class LogSource : public Source {
   void keep(const Tick& tick);
 
   RunFile run_;
-  std::size_t n_;
-  std::vector<double> rows_;  ///< a tick each: psi, tau (n), desired (3)
+  std::vector<double> rows_;  ///< a tick each: psi (n), tau (n_u), desired (3)
   Skeleton skeleton_;
   Traces traces_;
   std::string description_;

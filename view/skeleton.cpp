@@ -95,7 +95,7 @@ std::vector<int> Skeleton::joints_of_motors(const std::vector<Posture>& poses) c
   for (std::size_t i = 0; i < model_.links.size(); ++i)
     depth[i + 1] = depth[static_cast<std::size_t>(model_.links[i].parent)] + 1;
   std::vector<int> joints;
-  for (int motor = 0; motor < n(); ++motor) {
+  for (int motor = 0; motor < scene_->n_u(); ++motor) {
     const auto ratio = [&](const Posture& pose, int coordinate) { return pose.C(coordinate, motor); };
     const auto is_geared = [&](int coordinate) {
       return std::all_of(poses.begin(), poses.end(), [&](const Posture& pose) {
@@ -109,7 +109,7 @@ std::vector<int> Skeleton::joints_of_motors(const std::vector<Posture>& poses) c
       const int frame = static_cast<int>(i + 1);
       if (link.coordinate < 0 || std::abs(ratio(poses[0], link.coordinate)) < kSame) continue;
       if (std::find(joints.begin(), joints.end(), frame) != joints.end()) continue;
-      const bool is_like = link.prismatic == scene_->independent[static_cast<std::size_t>(motor)].linear;
+      const bool is_like = link.prismatic == scene_->motors()[static_cast<std::size_t>(motor)].linear;
       const std::pair here{!is_like || !is_geared(link.coordinate), depth[i + 1]};
       if (joint < 0 || here < best) best = here, joint = frame;
     }
@@ -148,9 +148,8 @@ nlohmann::json Skeleton::description() const {
                       {"from", solid.from},
                       {"to", solid.to}});
   for (std::size_t i = 0; i < joints_.size(); ++i)
-    motors.push_back({{"name", scene_->independent[i].name},
-                      {"linear", scene_->independent[i].linear},
-                      {"joint", joints_[i]}});
+    motors.push_back(
+        {{"name", scene_->motors()[i].name}, {"linear", scene_->motors()[i].linear}, {"joint", joints_[i]}});
   for (const auto& closure : closures_) closures.push_back({{"leaf", closure.leaf}, {"on", closure.on}});
   return {
       {"name", scene_->name},

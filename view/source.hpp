@@ -16,7 +16,8 @@ struct Pose {
   std::int64_t k = -1;
   double t = 0;
   std::int64_t session = 0;
-  std::vector<double> psi, tau;  ///< n; tau NaN where no command is known
+  std::vector<double> psi;  ///< n
+  std::vector<double> tau;  ///< n_u, NaN where no command is known
   Eigen::Vector3d desired = Eigen::Vector3d::Constant(std::nan(""));
   std::int32_t flags = 0;  ///< of state_t
   std::string note;        ///< what a person must know of it; empty where that is nothing

@@ -80,7 +80,7 @@ std::string Traces::since(std::int64_t from, std::size_t most_points) const {
   fmt::format_to(to, "],\"error\":");
   write(out, curve([&](std::size_t i) { return ticks_[i].error; }));
   fmt::format_to(to, ",\"tau\":[");
-  for (std::size_t motor = 0; motor < n_; ++motor) {
+  for (std::size_t motor = 0; motor < n_u_; ++motor) {
     if (motor > 0) out.push_back(',');
     write(out, curve([&](std::size_t i) { return ticks_[i].tau[motor]; }));
   }

@@ -16,7 +16,7 @@ namespace mixloop {
 struct Trace {
   double t = 0;                                        ///< plant time, s
   float error = 0;                                     ///< m; NaN where the desired place isn't known
-  std::vector<float> tau;                              ///< n, commanded; NaN where no command came
+  std::vector<float> tau;                              ///< n_u, commanded; NaN where no command came
   std::array<float, 3> place = {std::nanf(""), 0, 0};  ///< of the end effector, m; NaN where it isn't known
 };
 
@@ -24,7 +24,7 @@ struct Trace {
 /// missed.
 class Traces {
  public:
-  Traces(std::size_t n, std::size_t most) : n_(n), most_(most) {}
+  Traces(std::size_t n_u, std::size_t most) : n_u_(n_u), most_(most) {}
 
   void add(Trace trace);
   void clear() { ticks_.clear(); }
@@ -40,7 +40,7 @@ class Traces {
  private:
   void write_way(fmt::memory_buffer& out, std::size_t first, std::size_t most) const;
 
-  std::size_t n_, most_;
+  std::size_t n_u_, most_;
   std::deque<Trace> ticks_;
   std::int64_t count_ = 0;
 };

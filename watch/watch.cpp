@@ -113,13 +113,15 @@ bool Watch::take_as(Instant at) {
     if (heard_state()) ++other_sessions_;
     return true;
   }
-  if (static_cast<std::size_t>(message->n) != n_) return false;
+  constexpr bool of_motors = std::is_same_v<Message, command_t> || std::is_same_v<Message, reference_t>;
+  if (static_cast<std::size_t>(message->n) != (of_motors ? n_u_ : n_)) return false;
   on(*message, at);
   return true;
 }
 
 void Watch::begin(const state_t& state) {
   n_ = static_cast<std::size_t>(state.n);
+  n_u_ = experiment_ ? std::min(n_, experiment_->scene->motors().size()) : n_;
   for (ChannelCount& count : counts_) count.new_session();
   ticks_.assign(kTicksKept, {});
   latest_ = latest_command_ = -1;
@@ -131,11 +133,11 @@ void Watch::begin(const state_t& state) {
   timing_.reset();
   intervals_ = answers_ = {};
   forget_the_worst();
-  motors_.assign(n_, {});
+  motors_.assign(n_u_, {});
   if (!experiment_) return;
   const auto& limits =
       experiment_->plant.torque_limit.empty() ? experiment_->limits.torque : experiment_->plant.torque_limit;
-  for (std::size_t i = 0; i < std::min(n_, limits.size()); ++i) motors_[i].limit = limits[i];
+  for (std::size_t i = 0; i < std::min(n_u_, limits.size()); ++i) motors_[i].limit = limits[i];
 }
 
 void Watch::forget_the_worst() {
@@ -177,13 +179,13 @@ void Watch::on(const command_t& command, Instant at) {
   command_flags_ = command.flags;
   if (command.seq == latest_ && command.seq > latest_command_) answers_.add(at - state_at_);
   latest_command_ = std::max(latest_command_, command.seq);
-  for (std::size_t i = 0; i < n_; ++i) motors_[i].torque.add(command.tau_commanded[i]);
+  for (std::size_t i = 0; i < n_u_; ++i) motors_[i].torque.add(command.tau_commanded[i]);
 }
 
 void Watch::on(const truth_t& truth, Instant) {
   counts_[static_cast<std::size_t>(Channel::truth)].tick(truth.seq);
   truth_flags_ = truth.flags;
-  for (std::size_t i = 0; i < n_; ++i) motors_[i].applied = truth.tau_applied[i];
+  for (std::size_t i = 0; i < n_u_; ++i) motors_[i].applied = truth.tau_applied[i];
   if (kinematics_ || n_ != 3) return;
   Tick& kept = tick(truth.seq);
   kept.utime = truth.utime;
@@ -203,7 +205,7 @@ void Watch::compare_motors(Tick& kept) {
   if (!kept.psi || !kept.reference) return;
   phase_ = kept.reference->phase;
   const bool counts = phase_ != reference_t::PHASE_MOVE_TO_START;
-  for (std::size_t i = 0; i < n_; ++i) {
+  for (std::size_t i = 0; i < n_u_; ++i) {
     const double error = kept.reference->psi_desired[i] - (*kept.psi)[i];
     motors_[i].error.now = error;
     if (counts) motors_[i].error.add(error);

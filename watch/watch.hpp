@@ -70,7 +70,7 @@ class Watch {
  public:
   /// `prefix` of the channels. With an experiment there are position errors by its kinematics, and limits;
   /// without one, position errors where TRUTH is sent and there are three motors: else it is not known which
-  /// axes count.
+  /// axes count. Without one all that is measured is taken to be driven.
   Watch(const std::string& prefix, std::optional<Experiment> experiment, Instant start);
   ~Watch();
 
@@ -108,7 +108,7 @@ class Watch {
   std::vector<ChannelCount> counts_;
   AnyMessage message_;
   SessionFollower session_{0};
-  std::size_t n_ = 0;
+  std::size_t n_ = 0, n_u_ = 0;
   std::vector<Tick> ticks_;
   std::int64_t latest_ = -1, latest_command_ = -1;
   Instant state_at_{0};

@@ -50,6 +50,7 @@ struct Model {
   Vec3<T> end_effector_point;
 
   int n() const { return scene->n(); }
+  int n_u() const { return scene->n_u(); }
   int m() const { return scene->m(); }
   /// The coordinates that move a frame.
   const std::vector<int>& path(int frame) const {

@@ -38,7 +38,7 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   const NodePtr node = root.find("home");
   if (!node) return;
   std::vector<std::string> names;
-  for (const auto& motor : scene.independent) names.push_back(motor.name);
+  for (const auto& coordinate : scene.independent) names.push_back(coordinate.name);
   const Mapping entry(node, "home", names);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const NodePtr value = entry.find(names[i]);

@@ -6,9 +6,9 @@
 namespace mixloop {
 
 std::span<const Scene::Independent> Scene::motors() const {
-  const auto driven = std::find_if(independent.begin(), independent.end(),
-                                   [](const Independent& coordinate) { return !coordinate.driven; });
-  return {independent.begin(), driven};
+  const auto free = std::find_if(independent.begin(), independent.end(),
+                                 [](const Independent& coordinate) { return !coordinate.driven; });
+  return {independent.begin(), free};
 }
 
 std::vector<double> Scene::default_parameters() const {

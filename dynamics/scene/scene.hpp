@@ -127,7 +127,7 @@ struct Scene {
 struct Symbols {
   explicit Symbols(const Scene& scene)
       : psi0(1 + static_cast<int>(scene.parameters.size())), q0(psi0 + scene.n()) {}
-  Symbols(int parameters, int motors) : psi0(1 + parameters), q0(psi0 + motors) {}
+  Symbols(int parameters, int n) : psi0(1 + parameters), q0(psi0 + n) {}
 
   static constexpr int kTime = 0;
   static constexpr int kParameter0 = 1;

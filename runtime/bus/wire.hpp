@@ -21,9 +21,9 @@ namespace mixloop {
 
 /// Why a received message was dropped.
 enum class Reject : std::uint8_t {
-  length,       ///< not the length that this type has for the scene's n
+  length,       ///< not the length that this type has for its n
   fingerprint,  ///< another type, or another version of it
-  dimension,    ///< n isn't the scene's
+  dimension,    ///< its n isn't the scene's
   not_finite,   ///< NaN or infinity in it
   session,      ///< of another run
   config,       ///< of another rate, mechanism, path or parameters
@@ -72,7 +72,8 @@ Header header_of(const Message& m) {
   return {.n = m.n, .utime = m.utime, .seq = m.seq, .session = m.session, .config = m.config};
 }
 
-/// A message of this type for n motors: its arrays have their sizes, everything is zero.
+/// A message of this type with this n (motors of COMMAND and REFERENCE, measured coordinates of the others):
+/// its arrays have their sizes, everything is zero.
 template <class Message>
 Message blank(int n);
 

@@ -23,12 +23,12 @@ ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptio
       options_(options),
       side_(std::move(side)),
       link_(bus, stop, options),
-      inbox_(options.n),
-      command_(options.n),
-      safe_(options.n),
+      inbox_(options.n_u),
+      command_(options.n_u),
+      safe_(options.n_u),
       reference_channel_(bus.channel("REFERENCE")),
       command_channel_(bus.channel("COMMAND")),
-      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n)}) {
+      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n_u)}) {
   if (!side_.compute) throw std::logic_error("the controller has no law to compute");
   bus_.subscribe<&ControllerPeer::on_reference>(reference_channel_, this);
 }

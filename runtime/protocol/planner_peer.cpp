@@ -14,7 +14,7 @@ PlannerPeer::PlannerPeer(Bus& bus, const StopSwitch& stop, const PeerOptions& op
       options_(options),
       side_(std::move(side)),
       link_(bus, stop, options),
-      reference_(options.n),
+      reference_(options.n_u),
       reference_channel_(bus.channel("REFERENCE")) {
   if (!side_.refer) throw std::logic_error("the planner has no references to give");
 }

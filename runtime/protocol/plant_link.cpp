@@ -81,8 +81,11 @@ PlantLink::Event PlantLink::judge() {
 }
 
 Header PlantLink::answer_header(std::int64_t tick, std::int64_t utime) const {
-  return {
-      .n = options_.n, .utime = utime, .seq = tick, .session = session_.current(), .config = options_.config};
+  return {.n = options_.n_u,
+          .utime = utime,
+          .seq = tick,
+          .session = session_.current(),
+          .config = options_.config};
 }
 
 std::optional<Reject> PlantLink::check_origin(std::int64_t session, std::int64_t config) const {

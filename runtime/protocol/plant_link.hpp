@@ -17,7 +17,8 @@ namespace mixloop {
 
 /// What a controller or planner is told.
 struct PeerOptions {
-  int n = 0;                 ///< motors
+  int n = 0;                 ///< measured coordinates: what STATE's n counts
+  int n_u = 0;               ///< motors: what COMMAND's and REFERENCE's n counts
   std::int64_t session = 0;  ///< 0: take the one that is heard
   std::int64_t config = 0;   ///< see config_hash.hpp
   double rate_hz = 1000;     ///< ticks a second of plant time
@@ -63,6 +64,7 @@ class PlantLink {
   std::int64_t latest() const { return report.latest; }        ///< tick of state(), -1 before any
   bool first_of_session() const { return first_of_session_; }  ///< state() is the first of its session
   std::int64_t session() const { return session_.current(); }
+  /// Of a COMMAND or REFERENCE.
   Header answer_header(std::int64_t tick, std::int64_t utime) const;
   Ending ending() const { return ending_; }
 

@@ -65,7 +65,7 @@ PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& optio
       truth_(options.n),
       control_(options.n),
       timing_(bus, {.n = options.n}),
-      inbox_(options.n),
+      inbox_(options.n_u),
       state_channel_(bus.channel("STATE")),
       truth_channel_(bus.channel("TRUTH")),
       control_channel_(bus.channel("SIM_CONTROL")),

@@ -20,7 +20,8 @@ struct DeadlineCounts {
 
 /// What a plant on the bus is told, in lockstep and in real time.
 struct PlantOptions {
-  int n = 0;                   ///< motors
+  int n = 0;                   ///< measured coordinates: what the plant's messages count
+  int n_u = 0;                 ///< motors: what COMMAND's n counts
   std::int64_t last_tick = 0;  ///< N: ticks 0 to N are run
   double rate_hz = 1000;       ///< tick k is plant time k / rate_hz
   double speed = 0;            ///< plant seconds a real second; 0: as fast as it goes

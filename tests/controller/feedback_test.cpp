@@ -55,15 +55,7 @@ TEST_P(FeedbackOf, IsTheDerivativeOfItsTorque) {
   settings.feedforward_at = GetParam().at;
   settings.kp = Vector{{100.0, 25.0, 25.0}};
   settings.kv = Vector{{1.0, 0.5, 0.5}};
-  const Eigen::Vector3d unused = Eigen::Vector3d::Zero();
-  const auto values = [](const Vector& x) { return Reference::Values(x.data(), x.size()); };
-  const Reference reference{values(kPsi),
-                            values(kPsid),
-                            values(kPsidd),
-                            Reference::Triple(unused.data()),
-                            Reference::Triple(unused.data()),
-                            Reference::Triple(unused.data())};
-  const Matrix gain = feedback(settings, model, reference, 0).gain();
+  const Matrix gain = feedback(settings, model, {kPsi, kPsid, kPsidd}, 0).gain();
 
   const Wide step(1e-10);
   const WideVector psi = kPsi.cast<Wide>(), psid = kPsid.cast<Wide>();

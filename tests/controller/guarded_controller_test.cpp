@@ -20,8 +20,8 @@ struct Bench {
         psi(plan.at(0).psi) {}
 
   CommandMarks at(double t, bool stale = false) {
-    return controller.torque(span_of(std::as_const(psi)), span_of(std::as_const(psid)), stale, plan.at(0), t,
-                             span_of(tau));
+    return controller.torque({span_of(std::as_const(psi)), span_of(std::as_const(psid)), t, stale},
+                             plan.at(0), span_of(tau));
   }
 
   Experiment experiment;

@@ -24,7 +24,7 @@ TEST(MoveToStart, FromRestToRestIsTheQuinticByHand) {
 
 TEST(MoveToStart, EndsWithTheMotionThatItWasGiven) {
   const Vector from = Eigen::Vector2d(1, -2);
-  const MotorMotion to{Eigen::Vector2d(2, 3), Eigen::Vector2d(4, -5), Eigen::Vector2d(-6, 7)};
+  const PsiMotion to{Eigen::Vector2d(2, 3), Eigen::Vector2d(4, -5), Eigen::Vector2d(-6, 7)};
   const MoveToStart move(from, to, 0.5);
   EXPECT_LT((move.at(1).psi - to.psi).norm(), 1e-14);
   EXPECT_LT((move.at(1).psid - to.psid).norm(), 1e-13);
@@ -32,7 +32,7 @@ TEST(MoveToStart, EndsWithTheMotionThatItWasGiven) {
   // Rates are derivatives: central differences, error h^2 psi''''' / 6 and round-off / h.
   const double h = 1e-5;
   for (const double x : {0.1, 0.5, 0.8}) {
-    const MotorMotion before = move.at(x - h), now = move.at(x), after = move.at(x + h);
+    const PsiMotion before = move.at(x - h), now = move.at(x), after = move.at(x + h);
     EXPECT_LT((now.psid - (after.psi - before.psi) / (2 * h * 0.5)).norm(), 1e-6);
     EXPECT_LT((now.psidd - (after.psid - before.psid) / (2 * h * 0.5)).norm(), 1e-5);
   }

@@ -24,7 +24,7 @@ struct Bench {
     GuardedController controller = make_guarded_controller(experiment);
     for (std::int64_t i = 0; i < ticks; ++i) {
       const std::int64_t k = plant().tick();
-      controller.torque(plant().psi(), plant().psid(), false, plan.at(k), plant().time(), span_of(tau));
+      controller.torque({plant().psi(), plant().psid(), plant().time()}, plan.at(k), span_of(tau));
       hardware.command({.offset = 100'000, .command = k}, span_of(std::as_const(tau)));
       hardware.finish_tick();
     }

@@ -21,7 +21,7 @@ std::vector<float> points(const Curves& curves, const std::string& name) {
 
 /// One motor; the path goes along x at 2 m/s, a tick a second.
 Tick tick(std::int64_t k, const Eigen::Vector3d& error) {
-  Tick tick(1);
+  Tick tick({.n = 1, .n_u = 1});
   tick.k = k;
   tick.t = static_cast<double>(k);
   tick.desired.position = {2.0 * static_cast<double>(k), 0, 0};

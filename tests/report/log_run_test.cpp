@@ -67,7 +67,7 @@ struct Read {
 Read read(const std::string& file) {
   Read all;
   all.session = sessions_in(file, "MIXLOOP_").front();
-  all.facts = read_log(file, "MIXLOOP_", all.session, all.session.rate_hz, 0,
+  all.facts = read_log(file, "MIXLOOP_", all.session, all.session.rate_hz, {.n = 1, .n_u = 1},
                        [&](const Tick& tick) { all.ticks.push_back(tick); });
   return all;
 }

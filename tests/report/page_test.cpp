@@ -15,12 +15,13 @@ constexpr const char* kPage =
     R"(<html><script id="mixloop-data" type="application/json">null</script></html>)";
 
 ReportedRun noisy_run(std::int64_t ticks, std::size_t capacity) {
-  ReportedRun run{{.label = "</script><img src=x onerror=alert(1)>", .rate_hz = 1000, .n = 1},
-                  Curves(1, 0, {0, 1, 2}, 1000, capacity),
-                  {}};
+  ReportedRun run{
+      {.label = "</script><img src=x onerror=alert(1)>", .rate_hz = 1000, .sizes = {.n = 1, .n_u = 1}},
+      Curves({.n = 1, .n_u = 1}, {0, 1, 2}, 1000, capacity),
+      {}};
   std::mt19937 random(21);
   std::normal_distribution<double> noise;
-  Tick tick(1);
+  Tick tick({.n = 1, .n_u = 1});
   for (tick.k = 0; tick.k < ticks; ++tick.k) {
     for (auto* values : {&tick.psi, &tick.psid, &tick.tau, &tick.tau_applied}) (*values)[0] = noise(random);
     run.curves.add(tick);

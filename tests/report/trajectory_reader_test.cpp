@@ -17,7 +17,7 @@ TEST(TrajectoryReader, FindsColumnsByTheirNames) {
                                  "t,psi_1,psi_2,of_tomorrow,tau_2,velocity_y_actual,psi_desired_1\n"
                                  "0,1,2,3,4,5,6\n0.001,1e-3,-2,3,inf,nan,7");
   TrajectoryReader reader(file);
-  EXPECT_EQ(reader.n(), 2u);
+  EXPECT_EQ(reader.sizes().n, 2u);
   std::vector<Tick> ticks;
   reader.read(0, [&](const Tick& tick) { ticks.push_back(tick); });
   ASSERT_EQ(ticks.size(), 2u);

@@ -18,7 +18,11 @@ using testing::StartsWith;
 class Plant : public testing::Test {
  protected:
   static PlantOptions options(std::int64_t last_tick) {
-    return {.n = kScriptN, .last_tick = last_tick, .session = kScriptSession, .config = kScriptConfig};
+    return {.n = kScriptN,
+            .n_u = kScriptN,
+            .last_tick = last_tick,
+            .session = kScriptSession,
+            .config = kScriptConfig};
   }
   void start(const PlantOptions& o) { plant_.emplace(o, side()); }
 

@@ -25,6 +25,7 @@ class RealTimeController : public testing::Test {
     };
     side.safe = [](std::span<double> tau) { std::fill(tau.begin(), tau.end(), -1.0); };
     peer_.emplace(PeerOptions{.n = kScriptN,
+                              .n_u = kScriptN,
                               .session = kScriptSession,
                               .config = kScriptConfig,
                               .rate_hz = 50,

@@ -27,6 +27,7 @@ class RealTime : public testing::Test {
 
   static PlantOptions options(std::int64_t last_tick) {
     return {.n = kScriptN,
+            .n_u = kScriptN,
             .last_tick = last_tick,
             .rate_hz = 25,
             .speed = 1,

@@ -65,10 +65,14 @@ int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {
     toy.advance(tau);
     return true;
   };
-  LockstepPlant plant(
-      bus, stop,
-      {.n = toy::kN, .last_tick = last_tick, .speed = speed, .session = session, .config = toy::kConfig},
-      side);
+  LockstepPlant plant(bus, stop,
+                      {.n = toy::kN,
+                       .n_u = toy::kN,
+                       .last_tick = last_tick,
+                       .speed = speed,
+                       .session = session,
+                       .config = toy::kConfig},
+                      side);
   const Ending ending = plant.run();
   const PlantReport& r = plant.report();
   std::printf(R"({"ending": "%s", "digest": "%s", "ticks_done": %ld, "resent": %lu, "joined_late": %lu)",
@@ -125,7 +129,8 @@ int main(int argc, char** argv) try {
   const std::int64_t session = argc > 3 ? std::atoll(argv[3]) : 0;
   const double speed = argc > 4 ? std::atof(argv[4]) : 0;
   if (role == "plant") return run_plant(last_tick, session, speed);
-  const PeerOptions options{.n = toy::kN, .session = session, .config = toy::kConfig, .last_tick = last_tick};
+  const PeerOptions options{
+      .n = toy::kN, .n_u = toy::kN, .session = session, .config = toy::kConfig, .last_tick = last_tick};
   return role == "controller" ? run_controller(options) : run_planner(options);
 } catch (const mixloop::RunFault& fault) {
   std::fprintf(stderr, "%s: %s\n", fault.code.c_str(), fault.what());
