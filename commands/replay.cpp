@@ -11,7 +11,7 @@
 #include "processes/bus_line.hpp"
 #include "processes/controller_side.hpp"
 #include "runtime/bus/log_reader.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 namespace {
