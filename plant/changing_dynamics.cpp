@@ -3,10 +3,11 @@
 
 namespace mixloop {
 
-ChangingDynamics::ChangingDynamics(Dynamics dynamics, const PlantSettings& settings, bool linearises)
+ChangingDynamics::ChangingDynamics(Dynamics dynamics, std::span<const double> parameters,
+                                   bool friction_changes, bool linearises)
     : dynamics_(std::move(dynamics)) {
-  if (settings.faults.change_friction() && has_damping(scene()))
-    friction_.emplace(scene(), parameters_of(settings, scene()), dynamics_.evaluation(), linearises);
+  if (friction_changes && has_damping(scene()))
+    friction_.emplace(scene(), parameters, dynamics_.evaluation(), linearises);
 }
 
 void ChangingDynamics::change(std::span<const double> parameters, double friction) {

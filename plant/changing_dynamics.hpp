@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "dynamics/evaluator.hpp"
-#include "plant/plant_settings.hpp"
 #include "plant/scaled_friction.hpp"
 
 namespace mixloop {
@@ -13,8 +12,9 @@ namespace mixloop {
 /// after construction.
 class ChangingDynamics {
  public:
-  /// `settings` say what may change; `linearises`: slopes are asked for.
-  ChangingDynamics(Dynamics dynamics, const PlantSettings& settings, bool linearises);
+  /// `friction_changes`: it may, where the scene has some; `linearises`: slopes are asked for.
+  ChangingDynamics(Dynamics dynamics, std::span<const double> parameters, bool friction_changes,
+                   bool linearises);
 
   /// From now on these parameters and this factor on the scene's friction.
   void change(std::span<const double> parameters, double friction);

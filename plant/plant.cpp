@@ -5,6 +5,16 @@
 
 namespace mixloop {
 
+namespace {
+
+ChangingDynamics changing(Dynamics dynamics, const PlantSettings& settings) {
+  const auto parameters = parameters_of(settings, dynamics.scene());
+  return {std::move(dynamics), parameters, settings.faults.change_friction(),
+          facts(settings.integrator).jacobian};
+}
+
+}  // namespace
+
 /// What acts on the mechanism: ideal drives or not.
 struct Plant::Drives {
   Plant& plant;
@@ -16,8 +26,7 @@ struct Plant::Drives {
 };
 
 Plant::Plant(Dynamics dynamics, const PlantSettings& settings, double rate_hz, std::span<const double> psi0)
-    : ideal_{plant_model(settings, dynamics.scene(), rate_hz),
-             ChangingDynamics(std::move(dynamics), settings, facts(settings.integrator).jacobian)},
+    : ideal_{plant_model(settings, dynamics.scene(), rate_hz), changing(std::move(dynamics), settings)},
       rows_(stage_rows(settings.integrator)),
       faults_may_come_(settings.faults.injected),
       state_{.motion = state_at(model(), psi0)} {
