@@ -92,7 +92,7 @@ struct Result {
   };
   struct Log {
     std::string file;
-    std::uint64_t events = 0;
+    std::int64_t events = 0;
     std::int64_t missing_ticks = 0;
   };
 
