@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A log's messages as CSV, a file a channel.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <iterator>
 #include <map>
@@ -12,7 +13,7 @@
 #include "loop/result.hpp"
 #include "processes/command_line.hpp"
 #include "runtime/bus/log_reader.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 #include "watch/any_message.hpp"
 
 namespace mixloop {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A log's states and references through the controller again: does it command the same bytes?
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <map>
@@ -11,7 +12,7 @@
 #include "processes/bus_line.hpp"
 #include "processes/controller_side.hpp"
 #include "runtime/bus/log_reader.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 namespace {

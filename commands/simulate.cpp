@@ -2,6 +2,7 @@
 #include "loop/simulate.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -16,7 +17,7 @@
 #include "processes/result_json.hpp"
 #include "processes/summary.hpp"
 #include "runtime/clock/clock.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "loop/result.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 

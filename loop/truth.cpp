@@ -18,9 +18,9 @@ const Truth& TruthReader::at(std::int64_t k) {
   const auto conditions = recorder_.conditions(k);
   if (conditions.since != conditions_since_) {
     conditions_since_ = conditions.since;
-    dynamics_.change(conditions.parameters, conditions.friction);
+    dynamics_.set_parameters(conditions.parameters, conditions.friction);
   }
-  dynamics_.forward_dynamics(psi, psid, recorder_.applied(k), t, truth_.psidd);
+  dynamics_.evaluate(Purpose::forward_dynamics, {psi, psid, recorder_.applied(k), t}, truth_.psidd);
   dynamics_.dynamics().end_effector(psi, psid, truth_.psidd, t, hand_);
   truth_.position = Eigen::Map<const Eigen::Vector3d>(hand_.data());
   truth_.velocity = Eigen::Map<const Eigen::Vector3d>(hand_.data() + 3);

@@ -10,7 +10,7 @@ ChangingDynamics::ChangingDynamics(Dynamics dynamics, std::span<const double> pa
     friction_.emplace(scene(), parameters, dynamics_.evaluation(), linearises);
 }
 
-void ChangingDynamics::change(std::span<const double> parameters, double friction) {
+void ChangingDynamics::set_parameters(std::span<const double> parameters, double friction) {
   dynamics_.set_parameters(parameters);
   if (!friction_) return;
   friction_->set_parameters(parameters);

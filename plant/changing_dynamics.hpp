@@ -17,17 +17,21 @@ class ChangingDynamics {
                    bool linearises);
 
   /// From now on these parameters and this factor on the scene's friction.
-  void change(std::span<const double> parameters, double friction);
+  void set_parameters(std::span<const double> parameters, double friction);
 
-  void forward_dynamics(std::span<const double> psi, std::span<const double> psid,
-                        std::span<const double> tau, double t, std::span<double> psidd) {
-    dynamics_.forward_dynamics(psi, psid, tau, t, psidd);
-    if (factor_ != 1) friction_->scale(psi, psid, tau, t, factor_, psidd);
-  }
-  void linearisation(std::span<const double> psi, std::span<const double> psid, std::span<const double> tau,
-                     double t, std::span<double> slopes) {
-    dynamics_.linearisation(psi, psid, tau, t, slopes);
-    if (factor_ != 1) friction_->scale_slopes(psi, psid, tau, t, factor_, slopes);
+  struct Arguments {
+    std::span<const double> psi, psid, tau;
+    double t;
+  };
+  /// Forward dynamics or their linearisation.
+  void evaluate(Purpose purpose, const Arguments& at, std::span<double> out) {
+    if (purpose == Purpose::linearisation) {
+      dynamics_.linearisation(at.psi, at.psid, at.tau, at.t, out);
+      if (factor_ != 1) friction_->scale_slopes(at.psi, at.psid, at.tau, at.t, factor_, out);
+    } else {
+      dynamics_.forward_dynamics(at.psi, at.psid, at.tau, at.t, out);
+      if (factor_ != 1) friction_->scale(at.psi, at.psid, at.tau, at.t, factor_, out);
+    }
   }
 
   /// For what knows no friction.

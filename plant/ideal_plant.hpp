@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/purpose.hpp"
 #include "integrators/integrator.hpp"
 #include "plant/plant_model.hpp"
 #include "plant/plant_state.hpp"
@@ -11,8 +12,9 @@
 namespace mixloop {
 
 /// A plant with ideal drives and sensors, on any scalar: its constant model and what an evaluation needs
-/// beside it; states are the caller's. `Equations` has forward_dynamics(psi, psid, tau, t, psidd) and, for
-/// methods with a Jacobian, linearisation(psi, psid, tau, t, slopes). Nothing allocates after construction.
+/// beside it; states are the caller's. `Equations` has evaluate(purpose, {psi, psid, tau, t}, out) for the
+/// forward dynamics and, for methods with a Jacobian, their linearisation. Nothing allocates after
+/// construction.
 template <class T, class Equations>
 class IdealPlant {
  public:
@@ -63,7 +65,8 @@ class IdealPlant {
   void rate_of(const State& state, const T& t, const Vec<T>& x, Vec<T>& dx) {
     const std::span<const T> psi(x.data(), model_.n), psid(x.data() + n(), model_.n);
     std::copy(psid.begin(), psid.end(), dx.data());
-    equations_.forward_dynamics(psi, psid, span_of(state.applied), t, {dx.data() + n(), model_.n});
+    equations_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t},
+                        {dx.data() + n(), model_.n});
     dx[2 * n()] = state.applied.dot(x.segment(n(), n()));
   }
 
@@ -72,7 +75,7 @@ class IdealPlant {
 
   void linearise(const State& state, const T& t, const Vec<T>& x, AccelerationJacobian<T>& jacobian) {
     const std::span<const T> psi(x.data(), model_.n), psid(x.data() + n(), model_.n);
-    equations_.linearisation(psi, psid, span_of(state.applied), t, span_of(slopes_));
+    equations_.evaluate(Purpose::linearisation, {psi, psid, span_of(state.applied), t}, span_of(slopes_));
     jacobian.by_q = Eigen::Map<const Mat<T>>(slopes_.data(), n(), n());
     jacobian.by_v = Eigen::Map<const Mat<T>>(slopes_.data() + n() * n(), n(), n());
     if (!model_.timed) return;
@@ -80,8 +83,8 @@ class IdealPlant {
     using std::abs, std::max;
     const T d = 6e-6 * max(T(1), T(abs(t)));
     auto later = span_of(jacobian.by_t), earlier = span_of(slopes_).first(model_.n);
-    equations_.forward_dynamics(psi, psid, span_of(state.applied), t + d, later);
-    equations_.forward_dynamics(psi, psid, span_of(state.applied), t - d, earlier);
+    equations_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t + d}, later);
+    equations_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t - d}, earlier);
     jacobian.by_t = (jacobian.by_t - slopes_.head(n())) / (2 * d);
   }
 

@@ -38,7 +38,8 @@ Plant::Plant(Dynamics dynamics, const PlantSettings& settings, double rate_hz, s
 
 void Plant::put_back(const PlantState& state) {
   state_ = state;
-  if (const auto* faults = this->faults()) ideal_.equations().change(faults->parameters, faults->friction);
+  if (const auto* faults = this->faults())
+    ideal_.equations().set_parameters(faults->parameters, faults->friction);
 }
 
 void Plant::command(std::span<const double> tau) { take_command(model(), state_.motion, tau, Drives{*this}); }
@@ -65,7 +66,7 @@ void Plant::lock() {
 }
 
 void Plant::acceleration(std::span<double> psidd) {
-  ideal_.equations().forward_dynamics(psi(), psid(), applied(), time(), psidd);
+  ideal_.equations().evaluate(Purpose::forward_dynamics, {psi(), psid(), applied(), time()}, psidd);
 }
 
 void Plant::take(std::span<const double> tau) {

@@ -32,7 +32,7 @@ void Plant::begin_tick() {
 void Plant::take_changes() {
   const HardwareState& hardware = state_.hardware;
   if (const auto* faults = this->faults(); faults && faults->changed_at == tick())
-    ideal_.equations().change(faults->parameters, faults->friction);
+    ideal_.equations().set_parameters(faults->parameters, faults->friction);
   if (hardware.was_asked && !state_.motion.locked) take(span_of(hardware.asked));
 }
 

@@ -2,6 +2,7 @@
 // mixloop-plant: the simulated hardware, on the bus. It owns the clock and keeps the result.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <csignal>
 
 #include "processes/keep.hpp"

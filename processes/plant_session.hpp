@@ -4,7 +4,7 @@
 #include "loop/recorded_plant.hpp"
 #include "processes/plant_line.hpp"
 #include "processes/report_line.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 #include "runtime/protocol/plant_runner.hpp"
 
 namespace mixloop {

@@ -23,12 +23,14 @@ struct Equations {
   Model<T> model;
   Workspace<T> workspace{model};
 
-  void forward_dynamics(std::span<const T> psi, std::span<const T> psid, std::span<const T> tau, const T& t,
-                        std::span<T> psidd) {
-    const auto& out = mixloop::forward_dynamics<T>(model, psi, psid, tau, t, workspace);
-    std::copy(out.begin(), out.end(), psidd.begin());
+  struct Arguments {
+    std::span<const T> psi, psid, tau;
+    T t;
+  };
+  void evaluate(Purpose, const Arguments& at, std::span<T> out) {
+    const auto& psidd = forward_dynamics<T>(model, at.psi, at.psid, at.tau, at.t, workspace);
+    std::copy(psidd.begin(), psidd.end(), out.begin());
   }
-  void linearisation(std::span<const T>, std::span<const T>, std::span<const T>, const T&, std::span<T>) {}
 };
 
 template <class T>
