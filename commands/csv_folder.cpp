@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "loop/keep.hpp"
 #include "notation/errors.hpp"
+#include "processes/keep.hpp"
 
 namespace mixloop {
 namespace {

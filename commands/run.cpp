@@ -3,14 +3,13 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
-#include <fstream>
-
 #include "commands/commands.hpp"
 #include "commands/launched.hpp"
-#include "loop/keep.hpp"
-#include "loop/result.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/keep.hpp"
+#include "processes/result_json.hpp"
 #include "processes/speed.hpp"
+#include "processes/summary.hpp"
 #include "runtime/protocol/real_time_plant.hpp"
 
 namespace mixloop {
@@ -20,22 +19,6 @@ struct Options : CommonOptions {
   Launch launch;
   bool lockstep = false;
 };
-
-void print_bus(const nlohmann::json& result) {
-  if (!result.contains("round_trip_p50")) return;
-  if (result.contains("overruns"))
-    fmt::print(
-        "  commands         {} missed ({} in a row at most), {:.0f} % of the last 100 in time\n"
-        "  wake-up          p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; plant time slipped {} times, by "
-        "{:.6f} s\n",
-        result["missed_deadlines"].get<std::int64_t>(), result["longest_miss"].get<std::int64_t>(),
-        result["success_last_100"].get<double>() * 100, result.value("wake_up_p50", 0.0) * 1e6,
-        result.value("wake_up_p99", 0.0) * 1e6, result.value("wake_up_max", 0.0) * 1e6,
-        result["overruns"].get<std::int64_t>(), result["slipped"].get<double>());
-  fmt::print("  round trip       p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; {} states sent again\n",
-             result["round_trip_p50"].get<double>() * 1e6, result["round_trip_p99"].get<double>() * 1e6,
-             result["round_trip_max"].get<double>() * 1e6, result["resent"].get<std::int64_t>());
-}
 
 int run(Options& options) {
   StopSwitch stop;
@@ -49,16 +32,15 @@ int run(Options& options) {
   }
   Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
   experiment.evaluation = launch.evaluation;
-  const auto print = [&](const nlohmann::json& result) {
+  const auto print = [&](const Result& result) {
     if (options.json) return;
-    fmt::print("{}", summary(experiment, result));
-    print_bus(result);
+    fmt::print("{}{}", summary(experiment, result), bus_summary(result));
     if (!launch.out.empty()) fmt::print("  kept in {}\n", launch.out);
     std::fflush(stdout);
   };
   bool printed = false;
-  const auto at_end = [&](const nlohmann::json& result) {
-    if (!launch.hold || options.json || result.contains("interrupted_at")) return;
+  const auto at_end = [&](const Result& result) {
+    if (!launch.hold || options.json || result.run->measures.interrupted_at) return;
     print(result);
     printed = true;
     fmt::print(
@@ -68,14 +50,13 @@ int run(Options& options) {
         getpid());
     std::fflush(stdout);
   };
-  const nlohmann::json result = launched(experiment, launch, stop, at_end);
-  if (!launch.out.empty())
-    std::ofstream(std::filesystem::path(launch.out) / "result.json") << result.dump(2) << '\n';
+  const Result result = launched(experiment, launch, stop, at_end);
+  if (!launch.out.empty()) keep_result(launch.out, result);
   if (options.json)
-    print_json(result);
+    print_json(json_of(result));
   else if (!printed)
     print(result);
-  return result.at("exit_status").get<int>();
+  return result.judged.exit_status;
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ class Chooser {
     jacobian.by_v = Eigen::Map<const Matrix>(out.data() + n_ * n_, n_, n_);
   }
 
-  Vector advanced(Integrator& integrator, const Sample& sample) {
+  Vector advanced(Integrator<>& integrator, const Sample& sample) {
     Vector x = sample.start;
     integrator.advance(
         x, tick_,

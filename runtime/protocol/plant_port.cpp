@@ -2,7 +2,6 @@
 #include "runtime/protocol/plant_port.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "notation/errors.hpp"
@@ -41,18 +40,7 @@ PlantOptions with_session(PlantOptions options) {
 
 }  // namespace
 
-Ending ending_of(PlantPort::Answer answer) {
-  switch (answer) {
-    case PlantPort::Answer::interrupted:
-      return Ending::interrupted;
-    case PlantPort::Answer::reset:
-      return Ending::reset;
-    default:
-      return Ending::stopped;
-  }
-}
-
-PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& options, const PlantSide& plant,
+PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& options, PlantSide& plant,
                      std::int32_t state_flags, nanoseconds slack)
     : bus_(bus),
       stop_(stop),
@@ -70,8 +58,6 @@ PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& optio
       truth_channel_(bus.channel("TRUTH")),
       control_channel_(bus.channel("SIM_CONTROL")),
       command_channel_(bus.channel("COMMAND")) {
-  if (!plant_.measure || (options_.truth && !plant_.truth))
-    throw std::logic_error("a function of the plant's side is missing");
   report.session = options_.session;
   const Header header{.n = options_.n, .session = options_.session, .config = options_.config};
   set_header(state_.message, header);

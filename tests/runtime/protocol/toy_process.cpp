@@ -46,25 +46,36 @@ void print_rejects(const Rejects& r, const SteadyState& steady) {
               r.total() - r.stale, r.stale, steady.allocations(), steady.caller());
 }
 
+class ToyPlant final : public LockstepSide {
+ public:
+  ToyPlant(SteadyState& steady, std::int64_t last_tick) : steady_(steady) {
+    commands.reserve(static_cast<std::size_t>(last_tick + 1) * toy::kN);
+  }
+  bool measure(std::int64_t tick, std::span<double> psi, std::span<double> psid) override {
+    steady_.at(tick);
+    toy_.measure(psi, psid);
+    return false;
+  }
+  bool advance(std::int64_t, std::span<const double> tau) override {
+    commands.insert(commands.end(), tau.begin(), tau.end());
+    toy_.advance(tau);
+    return true;
+  }
+  void truth(std::int64_t, truth_t&) override {}
+
+  std::vector<double> commands;
+
+ private:
+  SteadyState& steady_;
+  toy::Plant toy_;
+};
+
 int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {
   Bus bus;
   StopSwitch stop;
   stop.turn_on_signals();
   SteadyState steady(last_tick);
-  toy::Plant toy;
-  std::vector<double> commands;
-  commands.reserve(static_cast<std::size_t>(last_tick + 1) * toy::kN);
-  PlantSide side;
-  side.measure = [&](std::int64_t tick, std::span<double> psi, std::span<double> psid) {
-    steady.at(tick);
-    toy.measure(psi, psid);
-    return false;
-  };
-  side.advance = [&](std::int64_t, std::span<const double> tau) {
-    commands.insert(commands.end(), tau.begin(), tau.end());
-    toy.advance(tau);
-    return true;
-  };
+  ToyPlant side(steady, last_tick);
   LockstepPlant plant(
       bus, stop,
       {.n = toy::kN, .last_tick = last_tick, .speed = speed, .session = session, .config = toy::kConfig},
@@ -72,7 +83,7 @@ int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {
   const Ending ending = plant.run();
   const PlantReport& r = plant.report();
   std::printf(R"({"ending": "%s", "digest": "%s", "ticks_done": %ld, "resent": %lu, "joined_late": %lu)",
-              name(ending).data(), toy::digest(commands).c_str(), r.ticks_done, r.resent, r.joined_late);
+              name(ending).data(), toy::digest(side.commands).c_str(), r.ticks_done, r.resent, r.joined_late);
   print_rejects(r.rejects, steady);
   return stop.turned() ? 130 : 0;
 }

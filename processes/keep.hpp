@@ -2,9 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "loop/recorder.hpp"
+#include "loop/recorded_plant.hpp"
+#include "loop/result.hpp"
 
 namespace mixloop {
 
@@ -13,7 +13,9 @@ namespace mixloop {
 void prepare_folder(const std::filesystem::path& folder);
 
 /// Keeps a run: result.json, trajectory.csv and inputs.json. Throws RunFault("cannot_write").
-void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan,
-          const Recorder& recorder, const nlohmann::json& result);
+void keep(const std::filesystem::path& folder, const RecordedPlant& run, const Result& result);
+
+/// Its result.json alone.
+void keep_result(const std::filesystem::path& folder, const Result& result);
 
 }  // namespace mixloop

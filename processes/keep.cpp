@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "loop/keep.hpp"
+#include "processes/keep.hpp"
 
 #include <fstream>
 
 #include "loop/inputs.hpp"
 #include "loop/trajectory.hpp"
+#include "processes/result_json.hpp"
 
 namespace mixloop {
 
@@ -17,12 +18,15 @@ void prepare_folder(const std::filesystem::path& folder) {
   if (!writable) throw RunFault("cannot_write", "cannot write into the folder " + folder.string());
 }
 
-void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan,
-          const Recorder& recorder, const nlohmann::json& result) {
-  write_trajectory(folder / "trajectory.csv", experiment, plan, recorder);
-  keep_inputs(folder, experiment);
+void keep(const std::filesystem::path& folder, const RecordedPlant& run, const Result& result) {
+  write_trajectory(folder / "trajectory.csv", run.experiment(), run.plan(), run.recorder());
+  keep_inputs(folder, run.experiment());
+  keep_result(folder, result);
+}
+
+void keep_result(const std::filesystem::path& folder, const Result& result) {
   std::ofstream out(folder / "result.json");
-  out << result.dump(2) << '\n';
+  out << json_of(result).dump(2) << '\n';
   if (!out.flush()) throw RunFault("cannot_write", "cannot write " + (folder / "result.json").string());
 }
 
