@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "commands/commands.hpp"
-#include "commands/csv_folder.hpp"
-#include "commands/progress.hpp"
 #include "loop/result.hpp"
 #include "processes/command_line.hpp"
+#include "report/csv_folder.hpp"
+#include "report/progress.hpp"
 #include "runtime/bus/log_reader.hpp"
 #include "runtime/machine/stop_switch.hpp"
 #include "watch/any_message.hpp"

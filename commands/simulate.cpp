@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "commands/commands.hpp"
-#include "commands/progress.hpp"
 #include "commands/simulated.hpp"
 #include "commands/warnings.hpp"
 #include "loop/arrivals.hpp"
@@ -14,6 +13,7 @@
 #include "loop/keep.hpp"
 #include "loop/result.hpp"
 #include "processes/command_line.hpp"
+#include "report/progress.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/machine/stop_switch.hpp"
 
@@ -78,9 +78,7 @@ int run(const Options& options) {
 void add_simulate_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("simulate", "the closed loop in one process, as fast as it goes");
-  command->add_option("experiment", options->experiment, "the experiment file")
-      ->required()
-      ->type_name("EXPERIMENT");
+  add_experiment_option(*command, options->experiment);
   add_common_options(*command, *options);
   command->add_option("--out", options->out, "keep result.json and trajectory.csv in this folder")
       ->type_name("DIR");

@@ -27,7 +27,7 @@ void add_quantiles(nlohmann::json& result, const std::string& name, const Histog
 
 nlohmann::json json_of(const Rejects& rejects) {
   nlohmann::json counts;
-  for (const Reject cause : kRejects) counts[std::string(name(cause))] = rejects.of(cause);
+  for (const RejectRow& row : kRejects) counts[std::string(row.name)] = rejects.of(row.cause);
   return counts;
 }
 

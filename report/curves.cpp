@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "report/position_error.hpp"
+#include "loop/position_error.hpp"
 
 namespace mixloop {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/position_error.hpp"
+#include "loop/position_error.hpp"
 
 namespace mixloop {
 namespace {

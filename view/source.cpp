@@ -10,7 +10,7 @@
 #include <iterator>
 #include <set>
 
-#include "report/position_error.hpp"
+#include "loop/position_error.hpp"
 
 namespace mixloop {
 namespace {

@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "loop/experiment.hpp"
-#include "mixloop/timing_t.hpp"
 #include "runtime/clock/histogram.hpp"
 #include "runtime/protocol/session.hpp"
 #include "watch/any_message.hpp"
 #include "watch/channel_count.hpp"
+#include "watch/tick_assembly.hpp"
 
 namespace mixloop {
-
-/// The channels of the bus, in the order in which they are shown.
-enum class Channel : std::uint8_t { state, reference, command, truth, timing, sim_control, fault, stop };
-inline constexpr std::array kChannels = {Channel::state, Channel::reference, Channel::command,
-                                         Channel::truth, Channel::timing,    Channel::sim_control,
-                                         Channel::fault, Channel::stop};
-/// "STATE" and so on, without the prefix.
-const char* name_of(Channel channel);
 
 /// A value now, and the one of the largest magnitude so far.
 struct Extreme {
@@ -81,13 +71,6 @@ class Watch {
   bool ended() const { return !ending_.empty(); }  ///< the plant has said END
 
  private:
-  struct Tick {
-    std::int64_t seq = -1, utime = 0;
-    std::optional<std::vector<double>> psi;
-    std::optional<reference_t> reference;
-    std::optional<std::array<double, 3>> position;
-  };
-
   void on(const state_t& state, Instant at);
   void on(const reference_t& reference, Instant at);
   void on(const command_t& command, Instant at);
@@ -95,11 +78,11 @@ class Watch {
   void on(const timing_t& timing, Instant at);
   void on(const sim_control_t& control, Instant at);
   template <class Message>
-  bool take_as(Instant at);
+  bool hear(const Message& message, ChannelCount& count, Instant at);
   void begin(const state_t& state);
-  Tick& tick(std::int64_t seq);
-  void compare_motors(Tick& tick);
-  void compare_position(Tick& tick);
+  void compare_motors(const HeardTick& tick);
+  void compare_with_truth(const HeardTick& tick);
+  void compare_position(const Eigen::Vector3d& position, const reference_t& reference, std::int64_t utime);
   std::string condition(Instant at) const;
   std::vector<std::string> warnings() const;
 
@@ -109,7 +92,7 @@ class Watch {
   AnyMessage message_;
   SessionFollower session_{0};
   std::size_t n_ = 0;
-  std::vector<Tick> ticks_;
+  TickAssembly ticks_{{}};
   std::int64_t latest_ = -1, latest_command_ = -1;
   Instant state_at_{0};
   std::int32_t state_flags_ = 0, command_flags_ = 0, truth_flags_ = 0;

@@ -126,9 +126,10 @@ Line times(const char* what, const std::string& p50, const std::string& p99, con
   return {{fmt::format("{:<24} {:>9} {:>9} {:>9}", what, p50, p99, max)}};
 }
 
-std::int64_t rejected(const timing_t& t) {
-  return t.rejected_length + t.rejected_fingerprint + t.rejected_dimension + t.rejected_not_finite +
-         t.rejected_session + t.rejected_config + t.rejected_tick + t.rejected_stale;
+std::int64_t rejected(const timing_t& timing) {
+  std::int64_t all = 0;
+  for (const RejectRow& row : kRejects) all += timing.*row.timed;
+  return all;
 }
 
 std::vector<Line> timing_lines(const WatchView& view) {

@@ -13,12 +13,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string text_of_file(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 /// Whether web/ was built here: a machine without npm has no pages.
 bool has_pages() { return MIXLOOP_HAS_PAGES; }
 
@@ -49,7 +43,7 @@ TEST(Report, IsOneFileOfAllResults) {
   EXPECT_EQ(json["results"].size(), 2u);
   EXPECT_EQ(json["results"][0]["label"], "paper (one)");
   EXPECT_EQ(json["results"][1]["ticks"], 1001);
-  const std::string page = text_of_file(folder.file("both.html"));
+  const std::string page = bytes_of(folder.file("both.html"));
   EXPECT_EQ(page.size(), json["bytes"].get<std::size_t>());
   EXPECT_THAT(page, AllOf(HasSubstr("paper (two)"), HasSubstr("default-src 'none'")));
   EXPECT_THAT(page, testing::Not(testing::ContainsRegex("(src|href)=\"?http")));
@@ -85,7 +79,7 @@ TEST(Report, TakesALog) {
     ASSERT_EQ(command.wait(), 0) << command.out() << command.err();
     EXPECT_EQ(command.json()["results"][0]["ticks"], 1001);
     const bool knows_scene = words.front() != folder.file("alone.lcmlog") || words.size() > 1;
-    EXPECT_EQ(text_of_file(folder.file("page.html")).find("\"q_1\":") != std::string::npos, knows_scene);
+    EXPECT_EQ(bytes_of(folder.file("page.html")).find("\"q_1\":") != std::string::npos, knows_scene);
   }
 }
 

@@ -34,10 +34,8 @@ class Script {
 
   template <class Message>
   Message message(std::int64_t tick, std::int64_t session = kSession) const {
-    Message m{};
-    if constexpr (!std::is_same_v<Message, timing_t> && !std::is_same_v<Message, fault_t>)
-      m = blank<Message>(n_);
-    m.n = n_, m.utime = 1000 * tick, m.seq = tick, m.session = session;
+    Message m = blank<Message>(n_);
+    set_header(m, {.n = n_, .utime = 1000 * tick, .seq = tick, .session = session});
     return m;
   }
   template <class Message>
@@ -280,8 +278,7 @@ WatchView busy(int n) {
 TEST(WatchText, ShowsAllOfThreeMotorsIn80By24) {
   // The last of the 24 lines is for the keys.
   const std::string text = text_of(busy(3), 80, 23);
-  for (const Channel channel : kChannels)
-    EXPECT_THAT(text, HasSubstr(std::string("MIXLOOP_") + name_of(channel)));
+  for (const char* channel : kChannelNames) EXPECT_THAT(text, HasSubstr(std::string("MIXLOOP_") + channel));
   EXPECT_THAT(text,
               AllOf(HasSubstr("real time"), HasSubstr("worst 100.0000 mm at 123456.789 s, by the truth"),
                     HasSubstr("\n3       1.500000"), HasSubstr("here: state to command")));

@@ -51,12 +51,6 @@ std::vector<Logged> all_of(LogReader& log) {
   return events;
 }
 
-std::string bytes_of(const std::string& file) {
-  std::stringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  return bytes.str();
-}
-
 /// Lengths that make blocks of the reader end at every place in an event, the magic inside of data too.
 std::vector<Logged> seeded_events(int count, std::size_t longest) {
   std::mt19937 random(7);

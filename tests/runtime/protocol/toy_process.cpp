@@ -43,7 +43,7 @@ class SteadyState {
 void print_rejects(const Rejects& r, const SteadyState& steady) {
   std::printf(R"(, "rejected": %lu, "stale": %lu, "allocations": %lu, "allocated_by": "%p"})"
               "\n",
-              r.total() - r.stale, r.stale, steady.allocations(), steady.caller());
+              r.total() - r.of(Reject::stale), r.of(Reject::stale), steady.allocations(), steady.caller());
 }
 
 int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/csv_folder.hpp"
+#include "report/csv_folder.hpp"
 
 #include <algorithm>
 #include <cctype>
