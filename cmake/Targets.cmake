@@ -35,6 +35,8 @@ add_library(mixloop_people INTERFACE)
 add_library(mixloop_tests INTERFACE)
 target_compile_options(mixloop_people INTERFACE $<$<CONFIG:Release>:-O1>)
 target_compile_options(mixloop_tests INTERFACE $<$<CONFIG:Release>:-O1>)
+# As their precompiled headers were compiled: else they are not taken.
+target_link_libraries(mixloop_tests INTERFACE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
 
 set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory>
     <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)

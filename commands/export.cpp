@@ -12,7 +12,7 @@
 #include "report/csv_folder.hpp"
 #include "report/progress.hpp"
 #include "runtime/bus/log_reader.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 #include "watch/any_message.hpp"
 
 namespace mixloop {

@@ -7,7 +7,7 @@
 
 #include "loop/experiment.hpp"
 #include "runtime/bus/bus.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 

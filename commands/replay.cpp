@@ -10,7 +10,7 @@
 #include "processes/controller_side.hpp"
 #include "report/progress.hpp"
 #include "runtime/bus/log_reader.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 #include "watch/tick_assembly.hpp"
 
 namespace mixloop {

@@ -15,7 +15,7 @@
 #include "processes/command_line.hpp"
 #include "report/progress.hpp"
 #include "runtime/clock/clock.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 

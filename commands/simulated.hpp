@@ -5,7 +5,7 @@
 #include <string>
 
 #include "loop/experiment.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 
