@@ -35,13 +35,13 @@ add_library(mixloop_people INTERFACE)
 add_library(mixloop_tests INTERFACE)
 target_compile_options(mixloop_people INTERFACE $<$<CONFIG:Release>:-O1>)
 target_compile_options(mixloop_tests INTERFACE $<$<CONFIG:Release>:-O1>)
-# As their precompiled headers were compiled: else they are not taken.
-target_link_libraries(mixloop_tests INTERFACE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
 
 set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory>
     <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
 mixloop_precompiled(numbers ${standard} <Eigen/Dense> <fmt/format.h>)
 mixloop_precompiled(people ${standard} <Eigen/Core> <fmt/format.h>)
 if(MIXLOOP_TESTS)
+  # GCC takes a precompiled header only where the same macros are defined.
+  target_link_libraries(mixloop_tests INTERFACE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json GTest::gmock)
   mixloop_precompiled(tests ${standard} <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <gmock/gmock.h> <gtest/gtest.h>)
 endif()

@@ -123,7 +123,8 @@ void add_monitor_command(CLI::App& app, int& status) {
   command->add_flag("--once", options->once,
                     "print what was heard in --seconds and leave; --json does so too");
   add_seconds_option(*command, "--seconds", options->seconds,
-                     "to listen with --once or --json, from the first STATE on, or to the run's end; 1", 86400);
+                     "to listen with --once or --json, from the first STATE on, or to the run's end; 1",
+                     86400);
   add_seconds_option(*command, "--patience", options->patience,
                      "seconds to wait for a plant with --once or --json, 10");
   command->add_flag("--no-colour", options->no_colour, "without colours, as with NO_COLOR set");

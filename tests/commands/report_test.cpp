@@ -2,10 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <sstream>
 
-#include "tests/support/command.hpp"
-#include "tests/support/paths.hpp"
+#include "tests/support/refused.hpp"
 
 namespace mixloop {
 namespace {
@@ -21,16 +19,6 @@ std::string simulated(const ScratchFolder& folder, const std::string& name) {
   Command command({bin("mixloop"), "simulate", experiment("paper"), "--json", "--out", out});
   EXPECT_EQ(command.wait(), 0) << command.err();
   return out;
-}
-
-int refused(const std::vector<std::string>& words, const std::string& code, const std::string& message) {
-  std::vector<std::string> all = {bin("mixloop"), "report", "--json"};
-  all.insert(all.end(), words.begin(), words.end());
-  Command command(all);
-  const int status = command.wait();
-  EXPECT_EQ(command.json()["error"]["code"], code) << command.out();
-  EXPECT_THAT(command.json()["error"]["message"].get<std::string>(), HasSubstr(message));
-  return status;
 }
 
 TEST(Report, IsOneFileOfAllResults) {
@@ -86,24 +74,24 @@ TEST(Report, TakesALog) {
 TEST(Report, RefusesWhatIsNoResult) {
   ScratchFolder folder;
   if (!has_pages()) GTEST_SKIP() << "built without npm";
-  EXPECT_EQ(refused({folder.path().string()}, "not_a_result", "no result.json"), 2);
-  EXPECT_EQ(refused({folder.file("nothing")}, "cannot_read", "no such file"), 2);
-  EXPECT_EQ(refused({folder.write("text", "hello, log")}, "not_a_log", "LCM event log"), 2);
-  EXPECT_EQ(refused({folder.file("x"), "--set", "rate=1"}, "command_line", "--experiment"), 2);
+  expect_refused({"report", folder.path().string()}, 2, "not_a_result", "no result.json");
+  expect_refused({"report", folder.file("nothing")}, 2, "cannot_read", "no such file");
+  expect_refused({"report", folder.write("text", "hello, log")}, 2, "not_a_log", "LCM event log");
+  expect_refused({"report", folder.file("x"), "--set", "rate=1"}, 2, "command_line", "--experiment");
   const std::string one = simulated(folder, "one");
   std::ofstream(one + "/inputs.json") << "{}";
-  EXPECT_EQ(refused({one}, "missing_key", "'scene'"), 2);
+  expect_refused({"report", one}, 2, "missing_key", "'scene'");
   std::ofstream(one + "/result.json") << "[1";
   std::filesystem::remove(one + "/inputs.json");
-  EXPECT_EQ(refused({one}, "not_a_result", "no JSON object"), 2);
+  expect_refused({"report", one}, 2, "not_a_result", "no JSON object");
 }
 
 TEST(Report, SaysWhereItCannotWrite) {
   if (!has_pages()) GTEST_SKIP() << "built without npm";
   ScratchFolder folder;
   const std::string one = simulated(folder, "one");
-  EXPECT_EQ(
-      refused({one, "--out", folder.file("no/such/folder.html")}, "cannot_write", "no/such/folder.html"), 3);
+  expect_refused({"report", one, "--out", folder.file("no/such/folder.html")}, 3, "cannot_write",
+                 "no/such/folder.html");
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ TEST(Track, ExitsWithTheHighestStatusAndWritesJunit) {
   EXPECT_EQ(results[0]["verdict"], "held");
   EXPECT_EQ(results[1]["error"]["code"], "no_such_file");
   EXPECT_EQ(results[2]["verdict"], "held");  // it diverges, as expected
-  EXPECT_THAT(bytes_of(folder.file("track.xml")), testing::HasSubstr("tests=\"3\" failures=\"0\" errors=\"1\""));
+  EXPECT_THAT(bytes_of(folder.file("track.xml")),
+              testing::HasSubstr("tests=\"3\" failures=\"0\" errors=\"1\""));
 }
 
 TEST(Track, SaysWhichBoundWasMissed) {

@@ -4,9 +4,7 @@
 #include <gmock/gmock.h>
 #include <lcm/eventlog.h>
 
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "tests/support/bad_input.hpp"
 #include "tests/support/command.hpp"
