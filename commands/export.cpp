@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A log's messages as CSV, a file a channel.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <iterator>
 #include <map>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What happens on the bus, in a terminal.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdlib>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A log's states and references through the controller again: does it command the same bytes?
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 

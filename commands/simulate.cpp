@@ -2,6 +2,7 @@
 #include "loop/simulate.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 

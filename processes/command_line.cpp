@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstring>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "loop/result.hpp"
 

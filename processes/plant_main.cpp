@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // mixloop-plant: the simulated hardware, on the bus. It owns the clock and keeps the result.
+#include <CLI/CLI.hpp>
 #include <csignal>
 
 #include "processes/plant_process.hpp"

@@ -9,8 +9,8 @@
 
 namespace mixloop {
 
-/// Which rooms each room may include from: the table of docs/house.md, closed (what a room's own rooms know, it
-/// knows). `all` stands for every room.
+/// Which rooms each room may include from: the table of docs/house.md, closed (what a room's own rooms know,
+/// it knows). `all` stands for every room.
 using Arrows = std::map<std::string, std::set<std::string>>;
 Arrows arrows_of(const std::filesystem::path& page);
 
