@@ -20,6 +20,7 @@ BEGIN {
   print "enum class Channel : std::uint8_t { " channels " };"
   print "/// Their names without the prefix."
   print "inline constexpr std::array kChannelNames = {" names "};"
+  print "\nvoid visit_fields(const std::monostate&, const auto&) {}"
 }
 
 $1 == "struct" {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "loop/keep.hpp"
+#include "loop/output_folder.hpp"
 #include "notation/errors.hpp"
 
 namespace mixloop {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loop/position_error.hpp"
 #include "runtime/protocol/config_hash.hpp"
 
 namespace mixloop {
@@ -81,13 +80,8 @@ void BusSource::add_trace(const HeardTick& tick) {
   traced_ = tick.k;
   const Pose pose = pose_of(tick);
   errors_.place(pose.psi, pose.t);
-  const Eigen::Vector3d E = errors_.end_effector();
-  const double error = position_error(E, pose.desired, experiment_.scene->end_effector.axes);
-  const Eigen::Vector3f place = E.cast<float>();
-  traces_.add({.t = pose.t,
-               .error = static_cast<float>(error),
-               .tau = {pose.tau.begin(), pose.tau.end()},
-               .place = {place[0], place[1], place[2]}});
+  traces_.add(
+      trace_of(pose.t, errors_.end_effector(), pose.desired, experiment_.scene->end_effector.axes, pose.tau));
 }
 
 /// Of a tick that has its state.
@@ -128,7 +122,8 @@ std::string BusSource::newest(Cursor& cursor) {
     const std::lock_guard lock(mutex_);
     cursor.version = version_;
     // The newest tick that is whole, unless nobody commands.
-    const HeardTick* tick = ticks_.find(ticks_.newest() - traced_ <= 1 ? traced_ : ticks_.newest());
+    const bool whole = traced_ >= 0 && ticks_.newest() - traced_ <= 1;
+    const HeardTick* tick = ticks_.find(whole ? traced_ : ticks_.newest());
     if (!tick) return {};
     pose = pose_of(*tick);
     traces = traces_.since(std::max<std::int64_t>(cursor.traces, 0), kMostPoints);

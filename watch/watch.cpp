@@ -6,7 +6,6 @@
 #include "dynamics/evaluator.hpp"
 #include "loop/position_error.hpp"
 #include "runtime/protocol/config_hash.hpp"
-#include "runtime/protocol/ending.hpp"
 
 namespace mixloop {
 namespace {
@@ -88,7 +87,7 @@ void Watch::begin(const state_t& state) {
   phase_ = reference_t::PHASE_PATH;
   config_ = state.config;
   stopped_ = false;
-  ending_.clear();
+  ending_.reset();
   timing_.reset();
   intervals_ = answers_ = {};
   forget_the_worst();
@@ -137,10 +136,7 @@ void Watch::on(const truth_t& truth, Instant) {
 void Watch::on(const timing_t& timing, Instant) { timing_ = timing; }
 
 void Watch::on(const sim_control_t& control, Instant) {
-  if (control.action == sim_control_t::ACTION_END) {
-    const Ending ending = ending_of(control.reason);
-    ending_ = ending == Ending::broken_off ? "fault" : name(ending);
-  }
+  if (control.action == sim_control_t::ACTION_END) ending_ = ending_of(control.reason);
   // The plant's own says which session comes next; an operator's is for the plant alone.
   if (control.action == sim_control_t::ACTION_RESET && control.seq != 0) session_.go_over_to(control.seq);
 }
@@ -182,14 +178,14 @@ void Watch::compare_position(const Eigen::Vector3d& position, const reference_t&
   if (position_error_->worst > worst) worst_at_ = 1e-6 * static_cast<double>(utime);
 }
 
-std::string Watch::condition(Instant at) const {
-  if (!heard_state()) return "silent";
-  if (!ending_.empty()) return "ended";
-  if (stopped_) return "stopped";
-  if (at - state_at_ > std::chrono::seconds(1)) return "silent";
-  if (state_flags_ & state_t::FLAG_SAFE_STATE) return "safe_state";
-  if (phase_ == reference_t::PHASE_MOVE_TO_START) return "moving_to_start";
-  return phase_ == reference_t::PHASE_HOLD ? "holding" : "on_path";
+Condition Watch::condition(Instant at) const {
+  if (!heard_state()) return Condition::silent;
+  if (ending_) return Condition::ended;
+  if (stopped_) return Condition::stopped;
+  if (at - state_at_ > std::chrono::seconds(1)) return Condition::silent;
+  if (state_flags_ & state_t::FLAG_SAFE_STATE) return Condition::safe_state;
+  if (phase_ == reference_t::PHASE_MOVE_TO_START) return Condition::moving_to_start;
+  return phase_ == reference_t::PHASE_HOLD ? Condition::holding : Condition::on_path;
 }
 
 std::vector<std::string> Watch::warnings() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "loop/experiment.hpp"
 #include "runtime/clock/histogram.hpp"
+#include "runtime/protocol/ending.hpp"
 #include "runtime/protocol/session.hpp"
 #include "watch/any_message.hpp"
 #include "watch/channel_count.hpp"
@@ -34,6 +36,11 @@ struct Heard {
   nanoseconds p50{0}, p99{0}, max{0};
 };
 
+/// How a run stands.
+enum class Condition : std::uint8_t { silent, on_path, moving_to_start, holding, safe_state, stopped, ended };
+inline constexpr std::array kConditionNames = {
+    "silent", "on_path", "moving_to_start", "holding", "safe_state", "stopped", "ended"};
+
 /// All that a viewer shows, at one instant.
 struct WatchView {
   std::vector<ChannelView> channels;
@@ -42,8 +49,8 @@ struct WatchView {
   std::int64_t tick = 0;
   double plant_time = 0;  ///< s
   bool real_time = false;
-  std::string condition;  ///< silent, on_path, moving_to_start, holding, safe_state, stopped, ended
-  std::string ending;     ///< of `ended`: finished, interrupted, stopped, fault
+  Condition condition{};
+  std::optional<Ending> ending;  ///< where it has ended
   std::vector<std::string> warnings;
 
   std::string position_source;            ///< "experiment", "truth", or "" where there is no position error
@@ -68,7 +75,7 @@ class Watch {
   void forget_the_worst();
   WatchView view(Instant at);
   bool heard_state() const { return session_.current() != 0; }
-  bool ended() const { return !ending_.empty(); }  ///< the plant has said END
+  bool ended() const { return ending_.has_value(); }  ///< the plant has said END
 
  private:
   void on(const state_t& state, Instant at);
@@ -83,7 +90,7 @@ class Watch {
   void compare_motors(const HeardTick& tick);
   void compare_with_truth(const HeardTick& tick);
   void compare_position(const Eigen::Vector3d& position, const reference_t& reference, std::int64_t utime);
-  std::string condition(Instant at) const;
+  Condition condition(Instant at) const;
   std::vector<std::string> warnings() const;
 
   std::optional<Experiment> experiment_;
@@ -100,7 +107,7 @@ class Watch {
   std::int64_t config_ = 0;
   double plant_time_ = 0;
   bool stopped_ = false;
-  std::string ending_;
+  std::optional<Ending> ending_;
   std::uint64_t other_sessions_ = 0;
   std::optional<Extreme> position_error_;
   double worst_at_ = 0;
