@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "controller/feedback.hpp"
 
-#include <Eigen/LU>
+#include "dynamics/procedure/decompositions.hpp"
 
 namespace mixloop {
 
@@ -19,8 +19,8 @@ Matrix forward_dynamics_slopes(Dynamics& dynamics, const PsiMotion& at, double t
 InverseDynamicsSlope inverse_dynamics_slope(Dynamics& dynamics, const PsiMotion& at, double t) {
   const auto n = at.psi.size();
   const Matrix slopes = forward_dynamics_slopes(dynamics, at, t);
-  const Eigen::PartialPivLU<Matrix> inverse_mass(slopes.rightCols(n));
-  return {-inverse_mass.solve(slopes.leftCols(n)), -inverse_mass.solve(slopes.middleCols(n, n))};
+  const Matrix by_state = solved(slopes.rightCols(n), slopes.leftCols(2 * n));
+  return {-by_state.leftCols(n), -by_state.rightCols(n)};
 }
 
 Feedback feedback(const ControllerSettings& settings, Dynamics& model, const PsiMotion& at, double t) {

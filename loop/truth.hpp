@@ -2,7 +2,7 @@
 #pragma once
 
 #include "loop/recorder.hpp"
-#include "plant/scaled_friction.hpp"
+#include "plant/changing_dynamics.hpp"
 
 namespace mixloop {
 
@@ -23,8 +23,7 @@ class TruthReader {
 
  private:
   const Recorder& recorder_;
-  Dynamics dynamics_;
-  std::optional<ScaledFriction> friction_;
+  ChangingDynamics dynamics_;
   std::int64_t conditions_since_ = -1;
   std::vector<double> hand_;
   Truth truth_;

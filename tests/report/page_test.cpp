@@ -17,7 +17,7 @@ constexpr const char* kPage =
 ReportedRun noisy_run(std::int64_t ticks, std::size_t capacity) {
   ReportedRun run{
       {.label = "</script><img src=x onerror=alert(1)>", .rate_hz = 1000, .sizes = {.n = 1, .n_u = 1}},
-      Curves({.n = 1, .n_u = 1}, {0, 1, 2}, 1000, capacity),
+      Curves({0, 1, 2}, 1000, capacity),
       {}};
   std::mt19937 random(21);
   std::normal_distribution<double> noise;

@@ -32,18 +32,23 @@ std::optional<Message> next(ScriptedPeer& script, const char* channel) {
   return inbox.message;
 }
 
-TEST(FewerMotors, ThePlantTakesTheirCommandsAlone) {
-  ScriptedPeer script{"STATE"};
-  PlantSide side;
+struct Sizes final : LockstepSide {
   std::atomic<std::size_t> measured = 0, commanded = 0;
-  side.measure = [&](std::int64_t, std::span<double> psi, std::span<double>) {
+
+  bool measure(std::int64_t, std::span<double> psi, std::span<double>) override {
     measured = psi.size();
     return false;
-  };
-  side.advance = [&](std::int64_t, std::span<const double> tau) {
+  }
+  bool advance(std::int64_t, std::span<const double> tau) override {
     commanded = tau.size();
     return true;
-  };
+  }
+  void truth(std::int64_t, truth_t&) override {}
+};
+
+TEST(FewerMotors, ThePlantTakesTheirCommandsAlone) {
+  ScriptedPeer script{"STATE"};
+  Sizes side;
   RunningPeer<LockstepPlant> plant(
       PlantOptions{
           .n = kN, .n_u = kMotors, .last_tick = 0, .session = kScriptSession, .config = kScriptConfig},
@@ -55,8 +60,8 @@ TEST(FewerMotors, ThePlantTakesTheirCommandsAlone) {
   script.send("COMMAND", of_motors<command_t>(0));
   EXPECT_EQ(plant.ending(), Ending::finished);
   EXPECT_EQ(plant.peer.report().rejects.dimension, 1U);
-  EXPECT_EQ(measured, std::size_t{kN});
-  EXPECT_EQ(commanded, std::size_t{kMotors});
+  EXPECT_EQ(side.measured, std::size_t{kN});
+  EXPECT_EQ(side.commanded, std::size_t{kMotors});
 }
 
 TEST(FewerMotors, TheControllerAnswersForThem) {
