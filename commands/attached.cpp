@@ -9,18 +9,18 @@ namespace mixloop {
 namespace {
 
 /// Listens to one session from its first STATE to its END.
-class Listener {
+class AttachedListener {
  public:
-  Listener(const Experiment& experiment, const Plan& plan, Bus& bus)
+  AttachedListener(const Experiment& experiment, const Plan& plan, Bus& bus)
       : plan_(plan),
         recorder_(experiment, plan),
         config_(config_of(common_ground(experiment))),
         states_(experiment.scene->n()),
         commands_(experiment.scene->n_u()),
         controls_(experiment.scene->n()) {
-    bus.subscribe<&Listener::on_state>(bus.channel("STATE"), this);
-    bus.subscribe<&Listener::on_command>(bus.channel("COMMAND"), this);
-    bus.subscribe<&Listener::on_control>(bus.channel("SIM_CONTROL"), this);
+    bus.subscribe<&AttachedListener::on_state>(bus.channel("STATE"), this);
+    bus.subscribe<&AttachedListener::on_command>(bus.channel("COMMAND"), this);
+    bus.subscribe<&AttachedListener::on_control>(bus.channel("SIM_CONTROL"), this);
   }
 
   bool over() const { return over_; }
@@ -88,7 +88,7 @@ Result attached(const Experiment& experiment, const BusOptions& options, nanosec
                 const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
   Bus bus(options);
-  Listener listener(experiment, plan, bus);
+  AttachedListener listener(experiment, plan, bus);
   const Instant start = now();
   Instant news = start;
   while (!listener.over() && !stop.turned()) {

@@ -16,13 +16,13 @@
 namespace mixloop {
 namespace {
 
-struct Options : CommonOptions {
+struct CompileLine : CommonOptions {
   std::string scene, emit, file;
   std::vector<std::string> purposes;
   bool c_library = false;
 };
 
-std::vector<Purpose> purposes_of(const Options& options) {
+std::vector<Purpose> purposes_of(const CompileLine& options) {
   std::vector<Purpose> purposes;
   for (Purpose purpose : kPurposes)
     if (options.purposes.empty() || std::find(options.purposes.begin(), options.purposes.end(),
@@ -31,7 +31,7 @@ std::vector<Purpose> purposes_of(const Options& options) {
   return purposes;
 }
 
-int write_source(const Options& options, const std::shared_ptr<const Scene>& scene) {
+int write_source(const CompileLine& options, const std::shared_ptr<const Scene>& scene) {
   const std::string source = firmware_source(
       scene, purposes_of(options), options.c_library ? Trigonometry::c_library : Trigonometry::inlined);
   if (options.file.empty()) {
@@ -46,7 +46,7 @@ int write_source(const Options& options, const std::shared_ptr<const Scene>& sce
   return 0;
 }
 
-int build(const Options& options, const std::shared_ptr<const Scene>& scene) {
+int build(const CompileLine& options, const std::shared_ptr<const Scene>& scene) {
   nlohmann::json built;
   for (Purpose purpose : purposes_of(options)) {
     const auto start = std::chrono::steady_clock::now();
@@ -61,7 +61,7 @@ int build(const Options& options, const std::shared_ptr<const Scene>& scene) {
   return 0;
 }
 
-int run(const Options& options) {
+int run(const CompileLine& options) {
   const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
   return options.emit.empty() ? build(options, scene) : write_source(options, scene);
 }
@@ -69,7 +69,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_compile_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompileLine>();
   std::vector<std::string> names;
   for (Purpose purpose : kPurposes) names.emplace_back(name_of(purpose));
   auto* command = app.add_subcommand(

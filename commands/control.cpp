@@ -18,7 +18,7 @@ namespace {
 const std::vector<std::string> kTargets = {"motor", "sensor", "payload", "friction"};
 const std::vector<std::string> kKinds(Fault::kKinds.begin(), Fault::kKinds.end());
 
-struct Options {
+struct ControlLine {
   BusOptions bus;
   double patience = 5;
   bool json = false;
@@ -57,7 +57,7 @@ class PlantSought {
   std::optional<Header> heard_;
 };
 
-int send(const Options& options, std::int8_t action, double speed) {
+int send(const ControlLine& options, std::int8_t action, double speed) {
   StopSwitch stop;
   stop.turn_on_signals();
   Bus bus(options.bus);
@@ -81,7 +81,7 @@ int send(const Options& options, std::int8_t action, double speed) {
   return kHeld;
 }
 
-int send_fault(const Options& options) {
+int send_fault(const ControlLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   Bus bus(options.bus);
@@ -113,7 +113,7 @@ int send_fault(const Options& options) {
 }
 
 /// STOP is honoured from anyone: no plant need be heard.
-int send_stop(const Options& options) {
+int send_stop(const ControlLine& options) {
   Bus bus(options.bus);
   Outbox<stop_t> message(0);
   message.encode();
@@ -128,7 +128,7 @@ int send_stop(const Options& options) {
 }  // namespace
 
 void add_control_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ControlLine>();
   auto* command =
       app.add_subcommand("control", "steers a plant that is running: pause, step, speed, reset, stop");
   command->require_subcommand(1);

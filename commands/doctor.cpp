@@ -13,7 +13,7 @@
 namespace mixloop {
 namespace {
 
-struct Options {
+struct DoctorLine {
   BusOptions bus;
   bool json = false;
   double seconds = 2;
@@ -23,7 +23,7 @@ const char* name_of(Fitness verdict) {
   return verdict == Fitness::good ? "good" : verdict == Fitness::fair ? "fair" : "BAD";
 }
 
-int run(const Options& options) {
+int run(const DoctorLine& options) {
   const nanoseconds span(static_cast<std::int64_t>(options.seconds * 1e9));
   const std::vector<std::function<Finding()>> checks = {
       [&] { return multicast_finding(options.bus); },
@@ -60,7 +60,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_doctor_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DoctorLine>();
   auto* command = app.add_subcommand("doctor", "is this machine fit for 1 kHz; each 'no' with what mends it");
   add_bus_options(*command, options->bus);
   command->add_option("--seconds", options->seconds, "to measure wake-ups and round trips for, 2 each")

@@ -13,7 +13,7 @@
 namespace mixloop {
 namespace {
 
-struct Options : CommonOptions {
+struct DynamicsLine : CommonOptions {
   std::string scene, psi, psid, tau;
   std::string t = "0";
 };
@@ -40,7 +40,7 @@ nlohmann::json list(const Eigen::MatrixBase<Derived>& vector) {
   return std::vector<double>(vector.begin(), vector.end());
 }
 
-nlohmann::json evaluated(const Options& options, const std::shared_ptr<const Scene>& scene) {
+nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<const Scene>& scene) {
   const auto parameters = scene->default_parameters();
   const auto model = make_model<double>(scene, std::span<const double>(parameters));
   Workspace<double> ws(model);
@@ -77,7 +77,7 @@ void print_lines(const nlohmann::json& value, const std::string& name) {
   }
 }
 
-int run(const Options& options) {
+int run(const DynamicsLine& options) {
   const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
   const auto json = evaluated(options, scene);
   if (options.json) {
@@ -92,7 +92,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_dynamics_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DynamicsLine>();
   auto* command =
       app.add_subcommand("dynamics", "one evaluation of a scene's equations of motion, M psi'' + h = tau");
   command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");

@@ -12,7 +12,7 @@
 namespace mixloop {
 namespace {
 
-struct Options : CommonOptions {
+struct ExplainLine : CommonOptions {
   std::string scene;
 };
 
@@ -55,7 +55,7 @@ void print_table(const Explanation& explanation) {
   for (const auto& reason : explanation.reasons) fmt::print("- {}\n", reason);
 }
 
-int run(const Options& options) {
+int run(const ExplainLine& options) {
   const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
   const Explanation explanation = explain(scene);
   if (options.json)
@@ -68,7 +68,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_explain_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainLine>();
   auto* command = app.add_subcommand("explain", "what a scene's programs skip, why, and what that saves");
   command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
   add_common_options(*command, *options);

@@ -20,7 +20,7 @@
 namespace mixloop {
 namespace {
 
-struct Options {
+struct ExportLine {
   std::string log, out;
   bool json = false;
 };
@@ -158,7 +158,7 @@ void print_summary(const nlohmann::json& result) {
   fmt::print("columns and their units: {}/columns.csv\n", result["out"].get<std::string>());
 }
 
-int run(const Options& options) {
+int run(const ExportLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   LogReader log(options.log);
@@ -196,7 +196,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_export_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportLine>();
   auto* command = app.add_subcommand("export", "a log's messages as CSV, one file a channel");
   command
       ->add_option("log", options->log, "an LCM event log: mixloop run --out's run.lcmlog, or lcm-logger's")

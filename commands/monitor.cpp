@@ -19,7 +19,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-struct Options : CommonOptions {
+struct MonitorLine : CommonOptions {
   std::string experiment;
   BusOptions bus;
   bool once = false, no_colour = false;
@@ -29,9 +29,9 @@ struct Options : CommonOptions {
 nanoseconds nanoseconds_of(double seconds) { return nanoseconds(static_cast<std::int64_t>(seconds * 1e9)); }
 
 /// A watch, with every channel of the bus subscribed to it.
-class Listener {
+class MonitorListener {
  public:
-  Listener(Bus& bus, Watch& watch) {
+  MonitorListener(Bus& bus, Watch& watch) {
     for (std::size_t i = 0; i < ears_.size(); ++i) {
       ears_[i] = {&watch, static_cast<Channel>(i)};
       bus.subscribe<&Ear::hear>(bus.channel(kChannelNames[i]), &ears_[i]);
@@ -47,7 +47,7 @@ class Listener {
   std::array<Ear, kChannelNames.size()> ears_;
 };
 
-Watch make_watch(const Options& options) {
+Watch make_watch(const MonitorLine& options) {
   std::optional<Experiment> experiment;
   if (!options.experiment.empty())
     experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
@@ -55,7 +55,7 @@ Watch make_watch(const Options& options) {
 }
 
 /// Listens for a while, or to the run's end, and says what was heard.
-int once(const Options& options, Watch& watch, Bus& bus, const StopSwitch& stop) {
+int once(const MonitorLine& options, Watch& watch, Bus& bus, const StopSwitch& stop) {
   const Instant give_up = now() + nanoseconds_of(options.patience);
   while (!watch.heard_state() && !stop.turned()) {
     if (now() > give_up) throw no_plant_heard(bus);
@@ -72,7 +72,7 @@ int once(const Options& options, Watch& watch, Bus& bus, const StopSwitch& stop)
   return stop.turned() ? kInterrupted : kHeld;
 }
 
-int on_screen(const Options& options, Watch& watch, Bus& bus, const StopSwitch& stop) {
+int on_screen(const MonitorLine& options, Watch& watch, Bus& bus, const StopSwitch& stop) {
   const char* no_colour = std::getenv("NO_COLOR");
   Screen screen(!options.no_colour && !(no_colour && *no_colour));
   const std::string keys = "q quits   r forgets the worst   " + options.bus.url;
@@ -100,12 +100,12 @@ int on_screen(const Options& options, Watch& watch, Bus& bus, const StopSwitch& 
   return kInterrupted;
 }
 
-int run(const Options& options) {
+int run(const MonitorLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   Watch watch = make_watch(options);
   Bus bus(options.bus);
-  const Listener listener(bus, watch);
+  const MonitorListener listener(bus, watch);
   if (options.once || options.json) return once(options, watch, bus, stop);
   return on_screen(options, watch, bus, stop);
 }
@@ -113,7 +113,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_monitor_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MonitorLine>();
   auto* command = app.add_subcommand("monitor", "what happens on the bus, in a terminal");
   command
       ->add_option(

@@ -17,7 +17,7 @@
 namespace mixloop {
 namespace {
 
-struct Options : CommonOptions {
+struct ReplayLine : CommonOptions {
   std::string experiment, log;
   std::string prefix = BusOptions{}.prefix;
   Evaluation evaluation = Evaluation::machine_code;
@@ -142,7 +142,7 @@ int tell(const Replayed& replayed, const std::string& damage, bool json) {
   return held ? kHeld : kMissed;
 }
 
-int run(const Options& options) {
+int run(const ReplayLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
@@ -164,7 +164,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_replay_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayLine>();
   auto* command = app.add_subcommand("replay", "a log's states and references through the controller again");
   add_experiment_option(*command, options->experiment);
   command->add_option("log", options->log, "an LCM log, as run --out keeps it or lcm-logger writes it")

@@ -18,7 +18,7 @@ constexpr std::size_t kMostBytes = 9'500'000;
 constexpr std::size_t kMostBuckets = std::size_t{1} << 15;  // a curve, of all runs together
 constexpr std::size_t kMostRuns = 8;                        // as many as can be told apart
 
-struct Options : LogOptions {
+struct ReportLine : LogOptions {
   std::vector<std::string> paths;
   std::string out;
 };
@@ -37,7 +37,7 @@ void tell_apart(std::vector<ReportedRun>& runs) {
       run.label += " (" + (std::filesystem::path(run.source) / "").parent_path().filename().string() + ")";
 }
 
-std::vector<ReportedRun> read_runs(Options& options) {
+std::vector<ReportedRun> read_runs(ReportLine& options) {
   if (options.paths.size() > kMostRuns)
     throw InputError("too_many", {options.paths[kMostRuns]},
                      fmt::format("{} results; expected at most {}, which can be told apart",
@@ -51,7 +51,7 @@ std::vector<ReportedRun> read_runs(Options& options) {
   return runs;
 }
 
-int run(Options& options) {
+int run(ReportLine& options) {
   const std::string page = web_page("report.html");
   std::vector<ReportedRun> runs = read_runs(options);
   const std::string text = report_page(page, runs, kMostBytes);
@@ -81,7 +81,7 @@ int run(Options& options) {
 }  // namespace
 
 void add_report_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportLine>();
   auto* command = app.add_subcommand("report", "one self-contained HTML page of results or logs");
   command->add_option("results", options->paths, "folders that --out kept, or LCM logs; several are overlaid")
       ->required()

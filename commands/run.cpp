@@ -15,12 +15,12 @@
 namespace mixloop {
 namespace {
 
-struct Options : CommonOptions {
+struct RunLine : CommonOptions {
   Launch launch;
   bool lockstep = false;
 };
 
-int run(Options& options) {
+int run(RunLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   Launch& launch = options.launch;
@@ -62,7 +62,7 @@ int run(Options& options) {
 }  // namespace
 
 void add_run_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunLine>();
   Launch& launch = options->launch;
   auto* command = app.add_subcommand("run", "the three processes over LCM: launches them, waits, summarises");
   add_experiment_option(*command, launch.experiment);

@@ -54,14 +54,14 @@ Result simulated(Experiment loaded, const std::string& out, const StopSwitch& st
 
 namespace {
 
-struct Options : CommonOptions {
+struct SimulateLine : CommonOptions {
   std::string experiment;
   std::string out;
   std::string ages;
   Evaluation evaluation = Evaluation::machine_code;
 };
 
-int run(const Options& options) {
+int run(const SimulateLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
@@ -78,7 +78,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateLine>();
   auto* command = app.add_subcommand("simulate", "the closed loop in one process, as fast as it goes");
   add_experiment_option(*command, options->experiment);
   add_common_options(*command, *options);

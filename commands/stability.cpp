@@ -13,7 +13,7 @@
 namespace mixloop {
 namespace {
 
-struct Options : CommonOptions {
+struct StabilityLine : CommonOptions {
   std::string experiment, picture;
   std::vector<std::string> vary;
   int poses = 21;
@@ -162,7 +162,7 @@ void print(const nlohmann::json& one) {
 
 class Study {
  public:
-  explicit Study(const Options& options) : options_(options) {}
+  explicit Study(const StabilityLine& options) : options_(options) {}
 
   nlohmann::json run() {
     const Experiment nominal = load({});
@@ -225,11 +225,11 @@ class Study {
     std::fflush(stderr);
   }
 
-  const Options& options_;
+  const StabilityLine& options_;
   std::vector<StabilityMap> maps_;
 };
 
-int run(const Options& options) {
+int run(const StabilityLine& options) {
   const nlohmann::json result = Study(options).run();
   if (options.json) {
     print_json(result);
@@ -246,7 +246,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_stability_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StabilityLine>();
   auto* command = app.add_subcommand("stability", "where the sampled loop is stable, and its margins");
   add_experiment_option(*command, options->experiment);
   add_common_options(*command, *options);

@@ -15,7 +15,7 @@
 namespace mixloop {
 namespace {
 
-struct Options : CommonOptions {
+struct TrackLine : CommonOptions {
   std::vector<std::string> experiments;
   bool over_bus = false, attach = false;
   std::string junit;
@@ -42,7 +42,7 @@ int exit_status(const Result& result) {
   return kInterrupted;
 }
 
-Result tracked(const std::string& file, const Options& options, const StopSwitch& stop) {
+Result tracked(const std::string& file, const TrackLine& options, const StopSwitch& stop) {
   Experiment experiment = load_experiment(std::filesystem::path(file), options.overrides());
   experiment.evaluation = options.evaluation;
   const auto patience = nanoseconds(static_cast<std::int64_t>(options.patience * 1e9));
@@ -58,7 +58,7 @@ Result tracked(const std::string& file, const Options& options, const StopSwitch
   return launched(experiment, launch, stop);
 }
 
-Result tracked_or_error(const std::string& file, const Options& options, const StopSwitch& stop) {
+Result tracked_or_error(const std::string& file, const TrackLine& options, const StopSwitch& stop) {
   const auto error = [&](const std::string& code, const std::string& message, const Place& place,
                          int status) -> Result {
     return {.experiment = std::filesystem::path(file).stem().string(),
@@ -90,7 +90,7 @@ void print_line(const Result& result) {
   std::fflush(stdout);
 }
 
-int run(const Options& options) {
+int run(const TrackLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   std::vector<Result> results;
@@ -114,7 +114,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_track_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TrackLine>();
   auto* command =
       app.add_subcommand("track", "tracking-error tests: runs experiments and holds what each expects");
   command->add_option("experiments", options->experiments, "experiment files")

@@ -13,7 +13,7 @@
 namespace mixloop {
 namespace {
 
-struct Options : LogOptions {
+struct ViewLine : LogOptions {
   std::string what;
   BusOptions bus;
   ServerOptions server;
@@ -24,7 +24,7 @@ bool is_experiment(const std::filesystem::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
-std::unique_ptr<Source> source_of(Options& options) {
+std::unique_ptr<Source> source_of(ViewLine& options) {
   if (is_experiment(options.what)) {
     if (!options.experiment.empty())
       throw InputError("command_line", {"--experiment"},
@@ -37,7 +37,7 @@ std::unique_ptr<Source> source_of(Options& options) {
   return std::make_unique<LogSource>(options.what, options.read);
 }
 
-int run(Options& options) {
+int run(ViewLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   const std::string page = web_page("view.html");
@@ -56,7 +56,7 @@ int run(Options& options) {
 }  // namespace
 
 void add_view_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ViewLine>();
   auto* command = app.add_subcommand("view", "the mechanism in a browser, live from the bus or from a log");
   command
       ->add_option("what", options->what,
