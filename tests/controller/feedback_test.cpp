@@ -6,12 +6,11 @@
 
 #include "planner/reference.hpp"
 #include "tests/dynamics/procedure/scene_procedure.hpp"
-#include "tests/oracles/wide.hpp"
+#include "tests/oracles/in_wide.hpp"
 
 namespace mixloop {
 namespace {
 
-using oracle::Wide;
 using WideVector = oracle::VectorX<Wide>;
 
 std::shared_ptr<const Scene> robot() {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/oracles/in_wide.hpp"
 #include "tests/oracles/mixed_loop_robot.hpp"
 #include "tests/oracles/paper_tree.hpp"
 #include "tests/oracles/random_mechanism.hpp"
-#include "tests/oracles/wide.hpp"
 
 namespace mixloop::oracle {
 namespace {

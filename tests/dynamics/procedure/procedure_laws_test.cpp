@@ -6,15 +6,15 @@
 #include <Eigen/Eigenvalues>
 
 #include "tests/dynamics/procedure/scene_procedure.hpp"
+#include "tests/oracles/in_wide.hpp"
 #include "tests/oracles/random_mechanism.hpp"
-#include "tests/oracles/wide.hpp"
 
 namespace mixloop {
 namespace {
 
 using oracle::MechanismKind;
 using oracle::RandomMechanism;
-using oracle::Wide;
+
 using VectorX = oracle::VectorX<double>;
 using MatrixX = oracle::MatrixX<double>;
 using WideVector = oracle::VectorX<Wide>;

@@ -5,14 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/dynamics/procedure/scene_procedure.hpp"
+#include "tests/oracles/in_wide.hpp"
 #include "tests/oracles/mixed_loop_robot.hpp"
 #include "tests/oracles/paper_tree.hpp"
-#include "tests/oracles/wide.hpp"
 
 namespace mixloop {
 namespace {
 
-using oracle::Wide;
 using Vector3 = Eigen::Vector3d;
 using VectorX = oracle::VectorX<double>;
 

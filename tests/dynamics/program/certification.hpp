@@ -2,20 +2,16 @@
 // How programs are held against the procedure in 113-bit floats.
 #pragma once
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#include <boost/multiprecision/eigen.hpp>
 #include <memory>
 #include <random>
 #include <span>
 #include <vector>
 
-#include "dynamics/procedure/procedure.hpp"
 #include "dynamics/program/routine.hpp"
 #include "dynamics/purpose.hpp"
+#include "tests/oracles/in_wide.hpp"
 
 namespace mixloop::testing {
-
-using Wide = boost::multiprecision::cpp_bin_float_quad;
 
 /// A state and an input, seeded.
 struct Sample {
