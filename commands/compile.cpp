@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
 #include "dynamics/evaluator.hpp"

@@ -12,11 +12,11 @@
 #include <optional>
 
 #include "commands/children.hpp"
-#include "commands/progress.hpp"
 #include "commands/warnings.hpp"
 #include "loop/inputs.hpp"
 #include "processes/keep.hpp"
 #include "processes/report_line.hpp"
+#include "report/progress.hpp"
 #include "runtime/bus/log_writer.hpp"
 #include "runtime/bus/multicast_route.hpp"
 #include "runtime/clock/clock.hpp"

@@ -65,9 +65,7 @@ void add_run_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   Launch& launch = options->launch;
   auto* command = app.add_subcommand("run", "the three processes over LCM: launches them, waits, summarises");
-  command->add_option("experiment", launch.experiment, "the experiment file")
-      ->required()
-      ->type_name("EXPERIMENT");
+  add_experiment_option(*command, launch.experiment);
   add_common_options(*command, *options);
   add_bus_options(*command, launch.bus);
   auto* lockstep =
@@ -92,10 +90,8 @@ void add_run_command(CLI::App& app, int& status) {
       ->type_name("A,B,C");
   command->add_option("--out", launch.out, "keep result.json, trajectory.csv and the LCM log in this folder")
       ->type_name("DIR");
-  command
-      ->add_option("--patience", launch.patience, "seconds without an answer after which a peer is lost, 10")
-      ->type_name("S")
-      ->check(CLI::Range(0.05, 3600.0));
+  add_seconds_option(*command, "--patience", launch.patience,
+                     "seconds without an answer after which a peer is lost, 10");
   add_evaluation_option(*command, launch.evaluation);
   command->footer(
       "LCM needs a multicast route; tools/in-namespace gives a command a network of its own that has one.\n"

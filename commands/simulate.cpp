@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "commands/commands.hpp"
-#include "commands/progress.hpp"
 #include "commands/simulated.hpp"
 #include "commands/warnings.hpp"
 #include "loop/arrivals.hpp"
@@ -16,6 +15,7 @@
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
 #include "processes/summary.hpp"
+#include "report/progress.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/stop_switch.hpp"
 
@@ -80,9 +80,7 @@ int run(const Options& options) {
 void add_simulate_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("simulate", "the closed loop in one process, as fast as it goes");
-  command->add_option("experiment", options->experiment, "the experiment file")
-      ->required()
-      ->type_name("EXPERIMENT");
+  add_experiment_option(*command, options->experiment);
   add_common_options(*command, *options);
   command->add_option("--out", options->out, "keep result.json and trajectory.csv in this folder")
       ->type_name("DIR");

@@ -127,9 +127,8 @@ void add_track_command(CLI::App& app, int& status) {
   command->add_flag("--attach", options->attach, "listen to processes that are already running")
       ->excludes(over_bus);
   command->add_option("--junit", options->junit, "write a JUnit report to this file")->type_name("FILE");
-  command->add_option("--patience", options->patience, "seconds without a plant after which it is lost, 10")
-      ->type_name("S")
-      ->check(CLI::Range(0.05, 3600.0));
+  add_seconds_option(*command, "--patience", options->patience,
+                     "seconds without a plant after which it is lost, 10");
   add_bus_options(*command, options->bus);
   add_evaluation_option(*command, options->evaluation);
   command->footer(

@@ -22,8 +22,8 @@ BusFigures bus_figures(const PlantReport& report) {
                      .rejected = report.rejects.total(),
                      .joined_late = report.joined_late > 0};
   if (report.wake_up.count() > 0) figures.wake_up = quantiles(report.wake_up);
-  for (const Reject cause : kRejects)
-    figures.rejected_by_cause[std::string(name(cause))] = report.rejects.of(cause);
+  for (const RejectRow& row : kRejects)
+    figures.rejected_by_cause[std::string(row.name)] = report.rejects.of(row.cause);
   return figures;
 }
 

@@ -26,6 +26,14 @@ struct CommonOptions {
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
 
+/// The experiment file, first of a command's words.
+void add_experiment_option(CLI::App& command, std::string& experiment,
+                           const std::string& what = "the experiment file");
+
+/// An option of so many seconds, from 0.05 to `most`.
+void add_seconds_option(CLI::App& command, const std::string& name, double& seconds, const std::string& what,
+                        double most = 3600);
+
 /// `--evaluation`: how the equations of motion are evaluated.
 void add_evaluation_option(CLI::App& command, Evaluation& evaluation);
 

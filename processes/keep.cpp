@@ -9,15 +9,6 @@
 
 namespace mixloop {
 
-void prepare_folder(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  const auto probe = folder / ".mixloop-probe";
-  const bool writable = std::ofstream(probe).put('x').good();
-  std::filesystem::remove(probe, failure);
-  if (!writable) throw RunFault("cannot_write", "cannot write into the folder " + folder.string());
-}
-
 void keep(const std::filesystem::path& folder, const RecordedPlant& run, const Result& result) {
   write_trajectory(folder / "trajectory.csv", run.experiment(), run.plan(), run.recorder());
   keep_inputs(folder, run.experiment());

@@ -18,21 +18,6 @@ constexpr auto kRepeatInterval = std::chrono::milliseconds(1);
 // A plant that is held by the operator goes on being heard.
 constexpr auto kHeldInterval = std::chrono::milliseconds(100);
 
-std::int8_t end_reason(Ending ending) {
-  switch (ending) {
-    case Ending::finished:
-      return sim_control_t::REASON_FINISHED;
-    case Ending::interrupted:
-      return sim_control_t::REASON_INTERRUPTED;
-    case Ending::stopped:
-      return sim_control_t::REASON_STOPPED;
-    case Ending::reset:
-    case Ending::broken_off:
-      break;
-  }
-  return sim_control_t::REASON_FAULT;
-}
-
 PlantOptions with_session(PlantOptions options) {
   if (options.session == 0) options.session = draw_session();
   return options;

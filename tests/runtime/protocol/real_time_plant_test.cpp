@@ -157,8 +157,8 @@ TEST_F(RealTime, TakesALateCommandUnlessANewerOneCameOrItIsTooOld) {
   std::vector<double> torques;
   for (const Taken& t : side_.taken) torques.push_back(t.tau);
   EXPECT_EQ(torques, (std::vector<double>{0, 10, 20, 40}));
-  EXPECT_EQ(plant_->peer.report().rejects.stale, 3U);
-  EXPECT_EQ(plant_->peer.report().rejects.tick, 1U);
+  EXPECT_EQ(plant_->peer.report().rejects.of(Reject::stale), 3U);
+  EXPECT_EQ(plant_->peer.report().rejects.of(Reject::tick), 1U);
 }
 
 TEST_F(RealTime, GoesIntoItsSafeStateWhereTheControllerKeepsSendingSafeCommands) {
@@ -210,7 +210,7 @@ TEST_F(RealTime, TakesACommandThatComesInAPauseIntoTheNextTick) {
   ASSERT_EQ(side_.taken.size(), 2U);
   EXPECT_EQ(side_.taken[1].in_tick, 2);
   EXPECT_EQ(side_.taken[1].tau, 10);
-  EXPECT_EQ(plant_->peer.report().rejects.stale, 1U);
+  EXPECT_EQ(plant_->peer.report().rejects.of(Reject::stale), 1U);
 }
 
 TEST_F(RealTime, IsResetByTheOperatorAndTellsWhichSessionComesNext) {

@@ -43,7 +43,7 @@ class SteadyState {
 void print_rejects(const Rejects& r, const SteadyState& steady) {
   std::printf(R"(, "rejected": %lu, "stale": %lu, "allocations": %lu, "allocated_by": "%p"})"
               "\n",
-              r.total() - r.stale, r.stale, steady.allocations(), steady.caller());
+              r.total() - r.of(Reject::stale), r.of(Reject::stale), steady.allocations(), steady.caller());
 }
 
 class ToyPlant final : public LockstepSide {
@@ -89,7 +89,12 @@ int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {
 }
 
 template <class Peer>
-int run_peer(Peer& peer, const StopSwitch& stop, const SteadyState& steady) {
+int run_peer(const PeerOptions& options, auto side_of) {
+  Bus bus;
+  StopSwitch stop;
+  stop.turn_on_signals();
+  SteadyState steady(options.last_tick);
+  Peer peer(bus, stop, options, side_of(steady));
   const Ending ending = peer.run();
   const PeerReport& r = peer.report();
   std::printf(R"({"ending": "%s", "answered": %lu, "repeated": %lu, "joined_late": %s)", name(ending).data(),
@@ -98,33 +103,23 @@ int run_peer(Peer& peer, const StopSwitch& stop, const SteadyState& steady) {
   return stop.turned() ? 130 : 0;
 }
 
-int run_controller(const PeerOptions& options) {
-  Bus bus;
-  StopSwitch stop;
-  stop.turn_on_signals();
-  SteadyState steady(options.last_tick);
+ControllerSide controller_side(SteadyState& steady) {
   ControllerSide side;
   side.compute = [&](const state_t& state, const reference_t& r, std::int64_t, std::span<double> tau) {
     steady.at(state.seq);
     toy::compute(state.psi_measured, state.psid_measured, r, tau);
     return 0;
   };
-  ControllerPeer peer(bus, stop, options, side);
-  return run_peer(peer, stop, steady);
+  return side;
 }
 
-int run_planner(const PeerOptions& options) {
-  Bus bus;
-  StopSwitch stop;
-  stop.turn_on_signals();
-  SteadyState steady(options.last_tick);
+PlannerSide planner_side(SteadyState& steady) {
   PlannerSide side;
   side.refer = [&](std::int64_t tick, reference_t& r) {
     steady.at(tick);
     toy::refer(tick, r);
   };
-  PlannerPeer peer(bus, stop, options, side);
-  return run_peer(peer, stop, steady);
+  return side;
 }
 
 }  // namespace
@@ -137,7 +132,8 @@ int main(int argc, char** argv) try {
   const double speed = argc > 4 ? std::atof(argv[4]) : 0;
   if (role == "plant") return run_plant(last_tick, session, speed);
   const PeerOptions options{.n = toy::kN, .session = session, .config = toy::kConfig, .last_tick = last_tick};
-  return role == "controller" ? run_controller(options) : run_planner(options);
+  return role == "controller" ? run_peer<ControllerPeer>(options, controller_side)
+                              : run_peer<PlannerPeer>(options, planner_side);
 } catch (const mixloop::RunFault& fault) {
   std::fprintf(stderr, "%s: %s\n", fault.code.c_str(), fault.what());
   return 3;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "commands/csv_folder.hpp"
+#include "report/csv_folder.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 
+#include "loop/output_folder.hpp"
 #include "notation/errors.hpp"
-#include "processes/keep.hpp"
 
 namespace mixloop {
 namespace {
