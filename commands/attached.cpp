@@ -22,6 +22,7 @@ class Listener {
     bus.subscribe<&Listener::on_state>(bus.channel("STATE"), this);
     bus.subscribe<&Listener::on_command>(bus.channel("COMMAND"), this);
     bus.subscribe<&Listener::on_control>(bus.channel("SIM_CONTROL"), this);
+    say_complaint(recorder_.equations().complaint());
   }
 
   bool over() const { return over_; }

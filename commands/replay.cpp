@@ -40,7 +40,9 @@ class Replay {
         references_(experiment.scene->n()),
         commands_(experiment.scene->n()),
         again_(experiment.scene->n()),
-        names_{prefix + "STATE", prefix + "REFERENCE", prefix + "COMMAND"} {}
+        names_{prefix + "STATE", prefix + "REFERENCE", prefix + "COMMAND"} {
+    say_complaint(controller_.law().equations().complaint());
+  }
 
   void take(const LogEvent& event) {
     if (event.channel == names_[0]) keep(states_, state_of_, event.data);

@@ -33,6 +33,7 @@ nlohmann::json simulated(Experiment loaded, const std::string& out, const StopSw
   const nlohmann::json warnings = warnings_of(experiment, plan, quiet);
   if (!out.empty()) prepare_folder(out);
   Recorder recorder(experiment, plan);
+  say_complaint(recorder.equations().complaint());
   Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);
   const Instant start = now();
   const auto go_on = [&](std::int64_t k) {

@@ -3,7 +3,7 @@
 
 namespace mixloop {
 
-Controller::Controller(Dynamics dynamics, ControllerSettings settings)
+Controller::Controller(Equations::Workspace dynamics, ControllerSettings settings)
     : dynamics_(std::move(dynamics)),
       settings_(std::move(settings)),
       model_torque_(settings_.kp.size()),
@@ -21,12 +21,13 @@ void Controller::torque(std::span<const double> psi, std::span<const double> psi
   out = settings_.kp.cwiseProduct(reference.psi - map_of(psi)) +
         settings_.kv.cwiseProduct(reference.psid - map_of(psid));
   if (law == Law::pd_feedforward || law == Law::computed_torque) {
-    dynamics_.mass_times(model_psi, span_of(reference.psidd), t, span_of(model_torque_));
+    dynamics_.evaluate(Purpose::mass_times, {.psi = model_psi, .input = span_of(reference.psidd), .t = t},
+                       span_of(model_torque_));
     out += model_torque_;
   }
   if (law == Law::pd_gravity || law == Law::computed_torque) {
-    dynamics_.bias(model_psi, law == Law::pd_gravity ? span_of(std::as_const(at_rest_)) : model_psid, t,
-                   span_of(model_torque_));
+    const auto rates = law == Law::pd_gravity ? span_of(std::as_const(at_rest_)) : model_psid;
+    dynamics_.evaluate(Purpose::bias, {.psi = model_psi, .psid = rates, .t = t}, span_of(model_torque_));
     out += model_torque_;
   }
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "controller/controller_settings.hpp"
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "planner/reference.hpp"
 
 namespace mixloop {
@@ -11,14 +11,16 @@ namespace mixloop {
 /// controller knows of the robot, not what the plant is.
 class Controller {
  public:
-  Controller(Dynamics dynamics, ControllerSettings settings);
+  Controller(Equations::Workspace dynamics, ControllerSettings settings);
 
   /// tau (n) for the measured psi, psid at time t. Allocates nothing.
   void torque(std::span<const double> psi, std::span<const double> psid, const Reference& reference, double t,
               std::span<double> tau);
 
+  const Equations& equations() const { return dynamics_.equations(); }
+
  private:
-  Dynamics dynamics_;
+  Equations::Workspace dynamics_;
   ControllerSettings settings_;
   Vector model_torque_, at_rest_;
 };

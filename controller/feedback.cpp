@@ -5,26 +5,28 @@
 
 namespace mixloop {
 
-Matrix forward_dynamics_slopes(Dynamics& dynamics, const Vector& psi, const Vector& psid, const Vector& psidd,
-                               double t) {
+Matrix forward_dynamics_slopes(Equations::Workspace& dynamics, const Vector& psi, const Vector& psid,
+                               const Vector& psidd, double t) {
   const auto n = psi.size();
   Vector tau(n);
-  dynamics.inverse_dynamics(span_of(psi), span_of(psid), span_of(psidd), t, span_of(tau));
+  dynamics.evaluate(Purpose::inverse_dynamics, {span_of(psi), span_of(psid), span_of(psidd), t},
+                    span_of(tau));
   Matrix slopes(n, 3 * n);
-  dynamics.linearisation(span_of(psi), span_of(psid), span_of(std::as_const(tau)), t,
-                         {slopes.data(), static_cast<std::size_t>(slopes.size())});
+  dynamics.evaluate(Purpose::linearisation, {span_of(psi), span_of(psid), span_of(tau), t},
+                    {slopes.data(), static_cast<std::size_t>(slopes.size())});
   return slopes;
 }
 
-InverseDynamicsSlope inverse_dynamics_slope(Dynamics& dynamics, const Vector& psi, const Vector& psid,
-                                            const Vector& psidd, double t) {
+InverseDynamicsSlope inverse_dynamics_slope(Equations::Workspace& dynamics, const Vector& psi,
+                                            const Vector& psid, const Vector& psidd, double t) {
   const auto n = psi.size();
   const Matrix slopes = forward_dynamics_slopes(dynamics, psi, psid, psidd, t);
   const Eigen::PartialPivLU<Matrix> inverse_mass(slopes.rightCols(n));
   return {-inverse_mass.solve(slopes.leftCols(n)), -inverse_mass.solve(slopes.middleCols(n, n))};
 }
 
-Feedback feedback(const ControllerSettings& settings, Dynamics& model, const Reference& reference, double t) {
+Feedback feedback(const ControllerSettings& settings, Equations::Workspace& model, const Reference& reference,
+                  double t) {
   const auto n = settings.kp.size();
   const Vector psi = reference.psi, psid = reference.psid, psidd = reference.psidd, zero = Vector::Zero(n);
   Feedback result{Matrix::Zero(n, 2 * n), Matrix::Zero(n, 2 * n)};

@@ -60,7 +60,7 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   const NodePtr faults = root.find("faults");
   if (faults)
     plant.faults.scheduled = read_faults(faults, *experiment.scene,
-                                         has_damping(*experiment.scene) || plant.actuators.has_friction(),
+                                         experiment.scene->has_friction() || plant.actuators.has_friction(),
                                          experiment.rate_hz, experiment.plant_parameters);
   if (const NodePtr seed = root.find("seed"))
     plant.seed = static_cast<std::uint64_t>(whole_number_of(*seed, 0, 1L << 53, "the seed"));
@@ -151,9 +151,10 @@ Plan make_plan(const Experiment& experiment) {
 }
 
 Controller make_controller(const Experiment& experiment) {
-  return Controller(Dynamics(experiment.controller_scene, experiment.controller_parameters,
-                             experiment.evaluation, {Purpose::mass_times, Purpose::bias}),
-                    experiment.controller);
+  return Controller(
+      {equations_of(experiment.controller_scene, experiment.evaluation, {Purpose::mass_times, Purpose::bias}),
+       experiment.controller_parameters},
+      experiment.controller);
 }
 
 GuardedController make_guarded_controller(const Experiment& experiment) {
@@ -177,15 +178,11 @@ Plant make_plant(const Experiment& experiment, const Plan& plan) {
   if (experiment.plant.automatic && !experiment.integrator_choice)
     return make_plant(with_integrator_settled(experiment, plan), plan);
   const Vector start = plan.at(0).psi;
-  const auto dynamics = [&](std::initializer_list<Purpose> purposes) {
-    return Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, purposes);
-  };
   PlantSettings settings = experiment.plant;
   settings.parameters = experiment.plant_parameters;
-  return Plant(facts(experiment.plant.integrator).jacobian
-                   ? dynamics({Purpose::forward_dynamics, Purpose::linearisation})
-                   : dynamics({Purpose::forward_dynamics}),
-               std::move(settings), experiment.rate_hz, span_of(start));
+  Equations::Workspace dynamics(plant_equations(experiment.scene, experiment.evaluation, settings),
+                                experiment.plant_parameters);
+  return Plant(std::move(dynamics), std::move(settings), experiment.rate_hz, span_of(start));
 }
 
 DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan) {

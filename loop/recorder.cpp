@@ -15,8 +15,8 @@ bool all_finite(std::span<const double> values) {
 
 Recorder::Recorder(const Experiment& experiment, const Plan& plan)
     : plan_(plan),
-      kinematics_(experiment.scene, experiment.plant_parameters, experiment.evaluation,
-                  {Purpose::end_effector}),
+      kinematics_(equations_of(experiment.scene, experiment.evaluation, {Purpose::end_effector}),
+                  experiment.plant_parameters),
       axes_(experiment.scene->end_effector.axes),
       n_(static_cast<std::size_t>(experiment.scene->n())),
       rate_hz_(experiment.rate_hz),
@@ -24,7 +24,7 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
       rows_(static_cast<std::size_t>(plan.ticks() + 3) * (4 * n_ + 1)),
       conditions_{-1, 1},
       zero_(n_, 0.0),
-      hand_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
+      hand_(kinematics_.outputs(Purpose::end_effector)) {
   measures_.max_torque = Vector::Zero(experiment.scene->n());
   const auto& parameters = experiment.plant_parameters;
   conditions_.insert(conditions_.end(), parameters.begin(), parameters.end());
@@ -55,7 +55,7 @@ Recorder::Conditions Recorder::conditions(std::int64_t k) const {
 
 bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work) {
   if (!all_finite(psi) || !all_finite(psid) || !std::isfinite(work)) return diverged(k);
-  kinematics_.end_effector(psi, psid, zero_, time(k), hand_);
+  kinematics_.evaluate(Purpose::end_effector, {psi, psid, zero_, time(k)}, hand_);
   const auto& desired = plan_.at(k).position;
   double squared = 0;
   for (const int axis : axes_) {

@@ -5,19 +5,15 @@
 
 namespace mixloop {
 
-Hardware::Hardware(const PlantSettings& settings, const Dynamics& dynamics, double rate_hz)
-    : asked_(Vector::Zero(dynamics.n())), faulted_(asked_) {
-  const auto n = static_cast<std::size_t>(dynamics.n());
-  const Scene& scene = dynamics.scene();
+Hardware::Hardware(const PlantSettings& settings, const Scene& scene, double rate_hz)
+    : asked_(Vector::Zero(scene.n())), faulted_(asked_) {
+  const auto n = static_cast<std::size_t>(scene.n());
   const std::vector<double> values =
       settings.parameters.empty() ? scene.default_parameters() : settings.parameters;
   if (settings.actuators.any()) actuators.emplace(settings.actuators, n);
   if (settings.sensors.any() || settings.faults.any())
     sensors.emplace(settings.sensors, settings.seed, n, rate_hz);
-  if (!settings.faults.any()) return;
-  faults.emplace(settings.faults, settings.seed, scene, rate_hz, values);
-  if (settings.faults.change_friction() && has_damping(scene))
-    scene_friction.emplace(scene, values, dynamics.evaluation(), facts(settings.integrator).jacobian);
+  if (settings.faults.any()) faults.emplace(settings.faults, settings.seed, scene, rate_hz, values);
 }
 
 Hardware::~Hardware() = default;

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "plant/plant_settings.hpp"
-#include "plant/scaled_friction.hpp"
 
 namespace mixloop {
 
@@ -17,7 +16,7 @@ class Hardware {
     return settings.sensors.any() || settings.actuators.any() || settings.faults.any();
   }
 
-  Hardware(const PlantSettings& settings, const Dynamics& dynamics, double rate_hz);
+  Hardware(const PlantSettings& settings, const Scene& scene, double rate_hz);
   ~Hardware();
   Hardware(const Hardware&) = delete;
   Hardware& operator=(const Hardware&) = delete;
@@ -25,7 +24,6 @@ class Hardware {
   std::optional<Actuators> actuators;
   std::optional<Sensors> sensors;
   std::optional<Faults> faults;
-  std::optional<ScaledFriction> scene_friction;  ///< where the scene has some that a fault may change
 
   /// A command as the motors' faults let it through, until the next call; it is kept as asked_.
   std::span<const double> through_faults(std::int64_t tick, std::span<const double> tau);
@@ -33,7 +31,6 @@ class Hardware {
   std::span<const double> asked() const { return span_of(asked_); }  ///< the latest command
 
   double friction() const { return faults ? faults->friction() : 1; }
-  bool friction_scaled() const { return scene_friction && faults->friction() != 1; }
 
  private:
   Vector asked_, faulted_;

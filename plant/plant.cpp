@@ -9,7 +9,16 @@
 
 namespace mixloop {
 
-Plant::Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::span<const double> psi0)
+std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
+                                                 const PlantSettings& settings) {
+  const Equations::Options options{.friction_factor = settings.faults.change_friction()};
+  if (!facts(settings.integrator).jacobian)
+    return equations_of(std::move(scene), how, {Purpose::forward_dynamics}, options);
+  return equations_of(std::move(scene), how, {Purpose::forward_dynamics, Purpose::linearisation}, options);
+}
+
+Plant::Plant(Equations::Workspace dynamics, PlantSettings settings, double rate_hz,
+             std::span<const double> psi0)
     : dynamics_(std::move(dynamics)),
       settings_(std::move(settings)),
       rate_hz_(rate_hz),
@@ -31,7 +40,7 @@ Plant::Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::spa
   delay_rest_ = rest > 1e-9 ? rest / rate_hz_ : 0;
   commands_.assign(delay_ticks_ + 2, applied_);
   if (!Hardware::needed(settings_)) return;
-  hardware_ = std::make_unique<Hardware>(settings_, dynamics_, rate_hz_);
+  hardware_ = std::make_unique<Hardware>(settings_, dynamics_.scene(), rate_hz_);
   begin_hardware_tick();
 }
 
@@ -81,8 +90,7 @@ void Plant::lock() {
 }
 
 void Plant::acceleration(std::span<double> psidd) {
-  dynamics_.forward_dynamics(psi(), psid(), applied(), time(), psidd);
-  if (hardware_) scale_friction(psi(), psid(), time(), psidd);
+  dynamics_.evaluate(Purpose::forward_dynamics, {psi(), psid(), applied(), time()}, psidd);
 }
 
 void Plant::saturate(std::span<const double> tau) { hardware_ ? saturate_by_hardware(tau) : limit(tau); }
@@ -119,15 +127,15 @@ void Plant::add_work_since_before() {
 void Plant::rate_of(double t, const Vector& x, Vector& dx) {
   const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
   std::copy(psid.begin(), psid.end(), dx.data());
-  dynamics_.forward_dynamics(psi, psid, applied(), t, {dx.data() + n_, n_});
+  dynamics_.evaluate(Purpose::forward_dynamics, {psi, psid, applied(), t}, {dx.data() + n_, n_});
   const auto n = static_cast<Eigen::Index>(n_);
   dx[2 * n] = applied_.dot(x.segment(n, n));
 }
 
 void Plant::linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian) {
   const auto n = static_cast<Eigen::Index>(n_);
-  dynamics_.linearisation({x.data(), n_}, {x.data() + n_, n_}, applied(), t, span_of(linearisation_));
-  if (hardware_) scale_slopes(x, t);
+  dynamics_.evaluate(Purpose::linearisation, {{x.data(), n_}, {x.data() + n_, n_}, applied(), t},
+                     span_of(linearisation_));
   jacobian.by_q = Eigen::Map<const Matrix>(linearisation_.data(), n, n);
   jacobian.by_v = Eigen::Map<const Matrix>(linearisation_.data() + n * n, n, n);
   if (timed_) time_derivative(t, x, jacobian.by_t);
@@ -137,12 +145,8 @@ void Plant::linearise(double t, const Vector& x, AccelerationJacobian<double>& j
 void Plant::time_derivative(double t, const Vector& x, Vector& by_t) {
   const double d = 6e-6 * std::max(1.0, std::abs(t));
   const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
-  dynamics_.forward_dynamics(psi, psid, applied(), t + d, span_of(by_t));
-  dynamics_.forward_dynamics(psi, psid, applied(), t - d, span_of(scratch_));
-  if (hardware_) {
-    scale_friction(psi, psid, t + d, span_of(by_t));
-    scale_friction(psi, psid, t - d, span_of(scratch_));
-  }
+  dynamics_.evaluate(Purpose::forward_dynamics, {psi, psid, applied(), t + d}, span_of(by_t));
+  dynamics_.evaluate(Purpose::forward_dynamics, {psi, psid, applied(), t - d}, span_of(scratch_));
   by_t = (by_t - scratch_) / (2 * d);
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "integrators/integrator.hpp"
 #include "plant/plant_settings.hpp"
 
@@ -14,12 +14,16 @@ namespace mixloop {
 
 class Hardware;
 
+/// The equations that a plant of these settings evaluates.
+std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
+                                                 const PlantSettings& settings);
+
 /// The simulated hardware: constraint-reduced forward dynamics, a torque held from command to command (or
 /// continuous), dead time and saturation; drives, sensors and faults where settings ask for them. It knows
 /// ticks, no clock.
 class Plant {
  public:
-  Plant(Dynamics dynamics, PlantSettings settings, double rate_hz, std::span<const double> psi0);
+  Plant(Equations::Workspace dynamics, PlantSettings settings, double rate_hz, std::span<const double> psi0);
   ~Plant();
   Plant(Plant&&) noexcept;
 
@@ -63,6 +67,7 @@ class Plant {
   template <class Control>
   void advance_continuously(const Control& control);
 
+  const Equations& equations() const { return dynamics_.equations(); }
   /// psi'' at the state in hand with `applied()`.
   void acceleration(std::span<double> psidd);
 
@@ -78,14 +83,11 @@ class Plant {
   void take_changes();
   void drive(double s, std::span<const double> psi, std::span<const double> psid);
   void driven_rate_of(double s, double t, const Vector& x, Vector& dx);
-  void scale_friction(std::span<const double> psi, std::span<const double> psid, double t,
-                      std::span<double> psidd);
-  void scale_slopes(const Vector& x, double t);
   void rate_of(double t, const Vector& x, Vector& dx);
   void linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian);
   void time_derivative(double t, const Vector& x, Vector& by_t);
 
-  Dynamics dynamics_;
+  Equations::Workspace dynamics_;
   PlantSettings settings_;
   double rate_hz_;
   std::size_t n_;

@@ -37,10 +37,8 @@ void Plant::begin_hardware_tick() {
 /// What changed with the tick in hand comes into force.
 void Plant::take_changes() {
   Hardware& hardware = *hardware_;
-  if (hardware.faults && hardware.faults->changed_at() == tick_) {
-    dynamics_.set_parameters(hardware.faults->parameters());
-    if (hardware.scene_friction) hardware.scene_friction->set_parameters(hardware.faults->parameters());
-  }
+  if (hardware.faults && hardware.faults->changed_at() == tick_)
+    dynamics_.set_parameters(hardware.faults->parameters(), hardware.faults->friction());
   if (hardware.was_asked() && !locked_) saturate(hardware.asked());
 }
 
@@ -79,22 +77,8 @@ void Plant::drive(double s, std::span<const double> psi, std::span<const double>
 }
 
 void Plant::driven_rate_of(double s, double t, const Vector& x, Vector& dx) {
-  const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
-  drive(s, psi, psid);
+  drive(s, {x.data(), n_}, {x.data() + n_, n_});
   rate_of(t, x, dx);
-  scale_friction(psi, psid, t, {dx.data() + n_, n_});
-}
-
-void Plant::scale_friction(std::span<const double> psi, std::span<const double> psid, double t,
-                           std::span<double> psidd) {
-  if (hardware_->friction_scaled())
-    hardware_->scene_friction->scale(psi, psid, applied(), t, hardware_->friction(), psidd);
-}
-
-void Plant::scale_slopes(const Vector& x, double t) {
-  if (hardware_->friction_scaled())
-    hardware_->scene_friction->scale_slopes({x.data(), n_}, {x.data() + n_, n_}, applied(), t,
-                                            hardware_->friction(), span_of(linearisation_));
 }
 
 }  // namespace mixloop

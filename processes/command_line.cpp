@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <map>
+#include <mutex>
 
 #include "loop/result.hpp"
 
@@ -22,6 +23,13 @@ int report(bool json, const char* program, const std::string& code, const std::s
 }
 
 }  // namespace
+
+void say_complaint(const std::string& complaint) {
+  static std::once_flag said;
+  if (complaint.empty()) return;
+  std::call_once(
+      said, [&] { fmt::print(stderr, "mixloop: programs are interpreted, not compiled: {}\n", complaint); });
+}
 
 int run_command_line(int argc, char** argv, CLI::App& app, const int& status) {
   bool json = false;

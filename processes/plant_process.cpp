@@ -50,6 +50,7 @@ PlantSession::PlantSession(const PlantLine& line, const Experiment& experiment, 
       report_(report),
       faults_(experiment.scene->n()) {
   heard_.reserve(Faults::kWaiting);
+  say_complaint(hardware_.plant().equations().complaint());
 }
 
 Ending PlantSession::run(Bus& bus, const StopSwitch& stop, std::int64_t session, std::int64_t next_session) {

@@ -21,9 +21,11 @@ class Holding {
     tau_ = Vector::Zero(n);
     support_ = Vector::Zero(n);
     const Vector zero = Vector::Zero(n), psi = start.psi;
-    Dynamics dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
-                      {Purpose::inverse_dynamics});
-    dynamics.inverse_dynamics(span_of(psi), span_of(zero), span_of(zero), 0, span_of(support_));
+    Equations::Workspace dynamics(
+        equations_of(experiment.scene, experiment.evaluation, {Purpose::inverse_dynamics}),
+        experiment.plant_parameters);
+    dynamics.evaluate(Purpose::inverse_dynamics, {span_of(psi), span_of(zero), span_of(zero)},
+                      span_of(support_));
     controller_.torque(span_of(psi), span_of(zero), start_, 0, span_of(tau_));
     support_ -= tau_;
   }
@@ -44,9 +46,9 @@ class Holding {
     PlantSettings settings = ideal(experiment.plant);
     settings.command_delay = sampling.delay;
     settings.torque_limit.clear();
-    return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
-                          {Purpose::forward_dynamics}),
-                 settings, 1 / sampling.tick, span_of(psi));
+    return Plant(
+        {plant_equations(experiment.scene, experiment.evaluation, settings), experiment.plant_parameters},
+        settings, 1 / sampling.tick, span_of(psi));
   }
 
   const Reference start_;

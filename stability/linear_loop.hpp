@@ -20,12 +20,13 @@ class Linearisation {
  public:
   explicit Linearisation(const Experiment& experiment);
 
+  const Equations& equations() const { return plant_.equations(); }
   /// At a reference that the plant follows exactly.
   LinearLoop at(const Reference& reference, double t);
 
  private:
   const ControllerSettings settings_;
-  Dynamics plant_, model_;
+  Equations::Workspace plant_, model_;
 };
 
 }  // namespace mixloop

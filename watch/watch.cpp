@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "runtime/protocol/config_hash.hpp"
 
 namespace mixloop {
@@ -66,9 +66,8 @@ Watch::Watch(const std::string& prefix, std::optional<Experiment> experiment, In
   for (const Channel channel : kChannels)
     counts_.emplace_back(prefix + name_of(channel), by_tick(channel), start);
   if (experiment_)
-    kinematics_ =
-        std::make_unique<Dynamics>(experiment_->scene, experiment_->plant_parameters, Evaluation::interpreter,
-                                   std::initializer_list<Purpose>{Purpose::end_effector});
+    kinematics_.emplace(equations_of(experiment_->scene, Evaluation::interpreter, {Purpose::end_effector}),
+                        experiment_->plant_parameters);
 }
 
 Watch::~Watch() = default;
@@ -208,11 +207,11 @@ void Watch::compare_motors(Tick& kept) {
     motors_[i].error.now = error;
     if (counts) motors_[i].error.add(error);
   }
-  if (!kinematics_ || static_cast<std::size_t>(kinematics_->n()) != n_) return;
+  if (!kinematics_ || static_cast<std::size_t>(kinematics_->scene().n()) != n_) return;
   const std::vector<double> zero(n_, 0.0);
-  std::vector<double> hand(static_cast<std::size_t>(output_size(Purpose::end_effector, kinematics_->n())));
-  kinematics_->end_effector(*kept.psi, zero, zero, static_cast<double>(kept.seq) / experiment_->rate_hz,
-                            hand);
+  std::vector<double> hand = kinematics_->outputs(Purpose::end_effector);
+  const double t = static_cast<double>(kept.seq) / experiment_->rate_hz;
+  kinematics_->evaluate(Purpose::end_effector, {*kept.psi, zero, zero, t}, hand);
   kept.position = {hand[0], hand[1], hand[2]};
   compare_position(kept);
 }

@@ -25,7 +25,10 @@ void add(std::string& text, std::span<const Formula> formulas) {
 std::string canonical_text(const Scene& scene) {
   std::string text =
       fmt::format("mixloop scene 1\n{} {} {}\n", scene.parameters.size(), scene.n(), scene.m());
-  for (const auto& motor : scene.independent) text += motor.linear ? "linear\n" : "rotary\n";
+  for (const auto& coordinate : scene.independent) {
+    if (!coordinate.driven) text += "free ";
+    text += coordinate.linear ? "linear\n" : "rotary\n";
+  }
   for (const auto& coordinate : scene.coordinates) add(text, coordinate.constraint);
   for (const auto& transform : scene.transforms) {
     text += fmt::format("transform {} {} {}\n", transform.parent, transform.coordinate.value_or(-1),
@@ -49,6 +52,7 @@ std::string canonical_text(const Scene& scene) {
     text += fmt::format("coordinate load {}\n", load.coordinate);
     for (const auto* formula : {&load.stiffness, &load.rest, &load.damping}) add(text, *formula);
   }
+  if (scene.friction_factor) text += "friction factor\n";
   text += "gravity\n";
   add(text, scene.gravity);
   text +=
