@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "dynamics/procedure/matrix.hpp"
 #include "plant/plant_settings.hpp"
 
 namespace mixloop {
