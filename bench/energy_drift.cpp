@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <optional>
 
 #include "bench/machine.hpp"
 #include "dynamics/scene/load_scene.hpp"
@@ -23,9 +24,9 @@ class FreeRobot {
   FreeRobot() {
     const Experiment paper = load_experiment(std::filesystem::path(MIXLOOP_EXPERIMENTS) / "paper.yaml", {});
     start_ = make_plan(paper).at(0).psi;
-    dynamics_ = std::make_unique<Dynamics>(
-        paper.scene, paper.parameters, Evaluation::machine_code,
-        std::initializer_list<Purpose>{Purpose::forward_dynamics, Purpose::energy});
+    dynamics_.emplace(
+        equations_of(paper.scene, Evaluation::machine_code, {Purpose::forward_dynamics, Purpose::energy}),
+        paper.parameters);
   }
 
   Vector start() const {
@@ -35,19 +36,20 @@ class FreeRobot {
   }
   void rate(const Vector& x, Vector& dx) {
     dx.head(3) = x.tail(3);
-    dynamics_->forward_dynamics({x.data(), 3}, {x.data() + 3, 3}, kNone, 0, {dx.data() + 3, 3});
+    dynamics_->evaluate(Purpose::forward_dynamics, {{x.data(), 3}, {x.data() + 3, 3}, kNone},
+                        {dx.data() + 3, 3});
   }
   /// Kinetic energy and the sum.
   std::array<double, 2> energy(const Vector& x) {
     double parts[2];
-    dynamics_->energy({x.data(), 3}, {x.data() + 3, 3}, 0, parts);
+    dynamics_->evaluate(Purpose::energy, {.psi = {x.data(), 3}, .psid = {x.data() + 3, 3}}, parts);
     return {parts[0], parts[0] + parts[1]};
   }
 
  private:
   static constexpr double kNone[3] = {};
   Vector start_;
-  std::unique_ptr<Dynamics> dynamics_;
+  std::optional<Equations::Workspace> dynamics_;
 };
 
 /// Steps of h on end, what they round away carried along; the drift is a share of the largest kinetic energy.

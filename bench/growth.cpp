@@ -44,14 +44,15 @@ State seeded_state(int n) {
 }
 
 /// ns an evaluation, the least of many passes of 20 us or more.
-double evaluation_time(Routine& routine, const ScenePtr& scene) {
-  routine.set_up({});
+double evaluation_time(const Routine& routine, const ScenePtr& scene) {
+  Evaluator evaluator(routine);
+  evaluator.set_up({});
   const State state = seeded_state(scene->n());
   std::vector<double> out(state.psi.size());
   const auto pass = [&](int count) {
     return 1e9 / count * seconds([&] {
              for (int i = 0; i < count; ++i) {
-               routine.run(state.psi.data(), state.psid.data(), state.tau.data(), 0.0, out.data());
+               evaluator.evaluate({state.psi, state.psid, state.tau}, out);
                asm volatile("" : : "r"(out.data()) : "memory");
              }
            });
@@ -87,8 +88,7 @@ void line(const char* family, int n, const ScenePtr& scene) {
   // Too long to compile: interpreted.
   const std::string compile_time = code ? text(compiling, "%.2f") : "-";
   const std::string compiled = code ? text(evaluation_time(*code, scene), "%.0f") : "-";
-  Interpreter interpreter(traced.program);
-  const double interpreted = evaluation_time(interpreter, scene);
+  const double interpreted = evaluation_time(Interpreter(traced.program), scene);
   const double procedure = evaluation_time(*reference_routine(scene, Purpose::forward_dynamics), scene);
   std::printf("%s\t%d\t%d\t%s\t%zu\t%zu\t%s\t%s\t%.1f\t%s\t%s\t%.0f\t%.0f\n", family, n, scene->m(),
               std::string(name_of(traced.tracing)).c_str(), count.flops(), count.sincos,

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "bench/engine.hpp"
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "dynamics/program/lanes.hpp"
 #include "dynamics/program/shared_object.hpp"
 #include "dynamics/program/source.hpp"
@@ -90,30 +90,30 @@ Engine emitted_engine(std::string name, const ScenePtr& scene, Trigonometry trig
   return engine;
 }
 
-Engine through_dynamics(const ScenePtr& scene, Evaluation how) {
+Engine through_equations(const ScenePtr& scene, Evaluation how) {
   const std::vector<double> parameters{kPayload};
-  const auto dynamics = std::make_shared<Dynamics>(
-      scene, parameters, how,
-      std::initializer_list<Purpose>{Purpose::forward_dynamics, Purpose::mass_matrix, Purpose::mass_times,
-                                     Purpose::dynamics_and_mass_times});
+  const auto equations = equations_of(scene, how,
+                                      {Purpose::forward_dynamics, Purpose::mass_matrix, Purpose::mass_times,
+                                       Purpose::dynamics_and_mass_times});
+  const auto dynamics = std::make_shared<Equations::Workspace>(equations, parameters);
   Engine made;
-  made.name = "mixloop, " + std::string(name_of(dynamics->evaluation()));
-  if (how == Evaluation::machine_code) made.name += ", through Dynamics";
+  made.name = "mixloop, " + std::string(name_of(equations->evaluation()));
+  if (how == Evaluation::machine_code) made.name += ", through Equations";
   made.forward = [dynamics](const State& state, Triple& psidd) {
-    dynamics->forward_dynamics(state.psi, state.psid, state.tau, 0.0, psidd);
+    dynamics->evaluate(Purpose::forward_dynamics, {state.psi, state.psid, state.tau}, psidd);
   };
   made.mass = [dynamics](const State& state, Symmetric& upper) {
     std::array<double, 9> M;
-    dynamics->mass_matrix(state.psi, 0.0, M);
+    dynamics->evaluate(Purpose::mass_matrix, {.psi = state.psi}, M);
     upper = upper_of(M.data());
   };
   made.mass_times = [dynamics](const State& state, Triple& force) {
-    dynamics->mass_times(state.psi, state.tau, 0.0, force);
+    dynamics->evaluate(Purpose::mass_times, {.psi = state.psi, .input = state.tau}, force);
   };
   made.forward_and_mass_times = [dynamics](const State& state, Triple& psidd, Triple& force) {
     std::array<double, 6> in, out;
     for (std::size_t k = 0; k < 3; ++k) in[k] = in[k + 3] = state.tau[k];
-    dynamics->dynamics_and_mass_times(state.psi, state.psid, in, 0.0, out);
+    dynamics->evaluate(Purpose::dynamics_and_mass_times, {state.psi, state.psid, in}, out);
     for (std::size_t k = 0; k < 3; ++k) psidd[k] = out[k], force[k] = out[k + 3];
   };
   return made;
@@ -125,7 +125,7 @@ Engine in_lanes(const ScenePtr& scene) {
   const std::shared_ptr<LaneCode> code = LaneCode::load(
       "bench" + scene->canonical, [&] { return trace(scene, Purpose::forward_dynamics).program; }, complaint);
   if (!code) throw std::runtime_error(complaint);
-  code->set_up(scene->default_parameters());
+  const std::vector<double> constants = code->constants(scene->default_parameters());
   const auto width = static_cast<std::size_t>(code->width());
   Engine engine;
   engine.name = "mixloop, machine code, " + std::to_string(width) + " lanes";
@@ -147,8 +147,10 @@ Engine in_lanes(const ScenePtr& scene) {
     }
     const double t[8] = {};
     for (std::size_t b = 0; b < blocks; ++b) {
-      const double* block = &in[b * size];
-      code->evaluate(block, block + 3 * width, block + 6 * width, t, &out[b * 3 * width]);
+      const auto part = [&](std::size_t i) {
+        return std::span(in).subspan(b * size + 3 * i * width, 3 * width);
+      };
+      code->run({part(0), part(1), part(2), t}, constants, &out[b * 3 * width]);
     }
     if (psidd.empty()) return;  // only timed
     for (std::size_t i = 0; i < states.size(); ++i)
@@ -171,7 +173,7 @@ void add_mixloop(Engines& engines) {
                                    Trigonometry::inlined));
   engines.push_back(in_lanes(folded));
   for (const Evaluation how : {Evaluation::machine_code, Evaluation::interpreter, Evaluation::reference})
-    engines.push_back(through_dynamics(scene, how));
+    engines.push_back(through_equations(scene, how));
 }
 
 }  // namespace mixloop::bench

@@ -60,10 +60,9 @@ void print_ticks() {
   }
 }
 
-/// ms until a Dynamics of these purposes stands.
+/// ms until equations of these purposes stands.
 double construction(const std::shared_ptr<const Scene>& scene, std::initializer_list<Purpose> purposes) {
-  return 1e3 *
-         seconds([&] { Dynamics(scene, scene->default_parameters(), Evaluation::machine_code, purposes); });
+  return 1e3 * seconds([&] { equations_of(scene, Evaluation::machine_code, purposes); });
 }
 
 /// The same in a process of its own, whose cache is `directory`: median of several.

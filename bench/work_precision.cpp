@@ -36,10 +36,7 @@ class Runner {
       plant_ = std::make_unique<Plant>(make_plant(experiment, *plan_));
     } else {
       plant_ = std::make_unique<Plant>(
-          facts(settings.integrator).jacobian
-              ? Dynamics(experiment.scene, experiment.plant_parameters, how,
-                         {Purpose::forward_dynamics, Purpose::linearisation})
-              : Dynamics(experiment.scene, experiment.plant_parameters, how, {Purpose::forward_dynamics}),
+          Equations::Workspace(plant_equations(experiment.scene, how, settings), experiment.plant_parameters),
           settings, experiment.rate_hz, problem.psi0);
     }
   }

@@ -24,22 +24,23 @@ enum class Kind { adams, bdf, erk5, erk8 };
 struct Plantlike {
   const Case* problem;
   int n;
-  Dynamics dynamics;
+  Equations::Workspace dynamics;
   Controller controller;
   std::vector<double> tau, linear;
 
   explicit Plantlike(const Case& c)
       : problem(&c),
         n(c.n()),
-        dynamics(c.experiment.scene, c.experiment.plant_parameters, Evaluation::machine_code,
-                 {Purpose::forward_dynamics, Purpose::linearisation}),
+        dynamics(equations_of(c.experiment.scene, Evaluation::machine_code,
+                              {Purpose::forward_dynamics, Purpose::linearisation}),
+                 c.experiment.plant_parameters),
         controller(c.drive == Case::Drive::table ? Controller(no_dynamics(c), {})
                                                  : make_controller(c.experiment)),
         tau(static_cast<std::size_t>(n)),
         linear(static_cast<std::size_t>(3 * n * n)) {}
 
-  static Dynamics no_dynamics(const Case& c) {
-    return Dynamics(c.experiment.scene, c.experiment.plant_parameters, Evaluation::reference, {});
+  static Equations::Workspace no_dynamics(const Case& c) {
+    return {equations_of(c.experiment.scene, Evaluation::reference, {}), c.experiment.plant_parameters};
   }
   std::span<const double> part(const double* x, int from) const {
     return {x + from, static_cast<std::size_t>(n)};
@@ -59,8 +60,8 @@ int rate(double t, N_Vector y, N_Vector ydot, void* user) {
   double* dx = N_VGetArrayPointer(ydot);
   if (plant.problem->drive == Case::Drive::continuous) plant.control(t, x);
   std::copy(x + plant.n, x + 2 * plant.n, dx);
-  plant.dynamics.forward_dynamics(plant.part(x, 0), plant.part(x, plant.n), plant.tau, t,
-                                  {dx + plant.n, static_cast<std::size_t>(plant.n)});
+  plant.dynamics.evaluate(Purpose::forward_dynamics, {plant.part(x, 0), plant.part(x, plant.n), plant.tau, t},
+                          {dx + plant.n, static_cast<std::size_t>(plant.n)});
   return 0;
 }
 
@@ -68,7 +69,8 @@ int jacobian(double t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, 
   auto& plant = *static_cast<Plantlike*>(user);
   const double* x = N_VGetArrayPointer(y);
   const int n = plant.n;
-  plant.dynamics.linearisation(plant.part(x, 0), plant.part(x, n), plant.tau, t, plant.linear);
+  plant.dynamics.evaluate(Purpose::linearisation, {plant.part(x, 0), plant.part(x, n), plant.tau, t},
+                          plant.linear);
   SUNMatZero(J);
   for (int j = 0; j < n; ++j) {
     SM_ELEMENT_D(J, j, n + j) = 1;

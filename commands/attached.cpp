@@ -21,6 +21,7 @@ class AttachedListener {
     bus.subscribe<&AttachedListener::on_state>(bus.channel("STATE"), this);
     bus.subscribe<&AttachedListener::on_command>(bus.channel("COMMAND"), this);
     bus.subscribe<&AttachedListener::on_control>(bus.channel("SIM_CONTROL"), this);
+    say_complaint(recorder_.equations().complaint());
   }
 
   bool over() const { return over_; }

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "dynamics/program/firmware.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "processes/command_line.hpp"
@@ -51,12 +51,14 @@ int build(const CompileLine& options, const std::shared_ptr<const Scene>& scene)
   nlohmann::json built;
   for (Purpose purpose : purposes_of(options)) {
     const auto start = std::chrono::steady_clock::now();
-    const Dynamics dynamics(scene, scene->default_parameters(), Evaluation::machine_code, {purpose});
+    const auto equations = equations_of(scene, Evaluation::machine_code, {purpose});
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    built[std::string(name_of(purpose))] = {{"evaluation", name_of(dynamics.evaluation())},
+    say_complaint(equations->complaint());
+    built[std::string(name_of(purpose))] = {{"evaluation", name_of(equations->evaluation())},
                                             {"seconds", seconds}};
     if (!options.json)
-      fmt::print("{:<26}{:<14}{:8.1f} ms\n", name_of(purpose), name_of(dynamics.evaluation()), 1e3 * seconds);
+      fmt::print("{:<26}{:<14}{:8.1f} ms\n", name_of(purpose), name_of(equations->evaluation()),
+                 1e3 * seconds);
   }
   if (options.json) print_json(built);
   return 0;

@@ -233,8 +233,9 @@ Result launched(const Experiment& experiment, const Launch& launch, const StopSw
     prepare_folder(launch.out);
     keep_inputs(launch.out, experiment);  // also where a stranger's plant keeps nothing
   }
-  make_plant(experiment, plan);  // the programs are compiled once, not by each process
-  make_controller(experiment);
+  // The programs are compiled once, not by each process.
+  say_complaint(make_plant(experiment, plan).equations().complaint());
+  say_complaint(make_controller(experiment).equations().complaint());
   auto warnings = warnings_of(experiment, plan, launch.quiet);
 
   std::optional<LogWriter> log;

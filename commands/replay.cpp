@@ -43,7 +43,9 @@ class Replay {
         again_(experiment.scene->n_u()),
         names_{prefix + "STATE", prefix + "REFERENCE", prefix + "COMMAND"},
         ticks_({.behind = std::max(TickAssembly::kBehind, farthest_extrapolated(experiment) + 1),
-                .config = config_of(common_ground(experiment))}) {}
+                .config = config_of(common_ground(experiment))}) {
+    say_complaint(controller_.law().equations().complaint());
+  }
 
   void take(const LogEvent& event) {
     if (event.channel == names_[0]) keep(states_, event.data);

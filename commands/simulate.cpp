@@ -35,6 +35,7 @@ Result simulated(Experiment loaded, const std::string& out, const StopSwitch& st
   const auto warnings = warnings_of(experiment, plan, quiet);
   if (!out.empty()) prepare_folder(out);
   RecordedPlant plant(experiment, plan);
+  say_complaint(plant.plant().equations().complaint());
   Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);
   const Instant start = now();
   const auto go_on = [&](std::int64_t k) {

@@ -201,6 +201,7 @@ class Study {
     const Experiment experiment = load(variant);
     const Plan plan = make_plan(experiment);
     const Survey instants = survey(experiment, plan, options_.poses);
+    say_complaint(instants.complaint);
     const Limits start = limits_of(instants.loops.front(), instants.sampling);
     const PathLimits path = path_limits(instants);
     maps_.push_back(stability_map(instants, name_of(variant)));

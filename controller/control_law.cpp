@@ -3,10 +3,10 @@
 
 namespace mixloop {
 
-Controller::Controller(Dynamics dynamics, ControllerSettings settings)
+Controller::Controller(Equations::Workspace dynamics, ControllerSettings settings)
     : dynamics_(std::move(dynamics)),
       settings_(std::move(settings)),
-      psi_(dynamics_.n()),
+      psi_(dynamics_.scene().n()),
       psid_(psi_),
       feedforward_(settings_.kp.size()),
       bias_(psi_) {}
@@ -28,11 +28,16 @@ void Controller::torque(const Measurement& now, const Reference& desired, std::s
   }
   if (law == Law::pd_gravity) psid_.setZero();
   if (law == Law::pd_feedforward || law == Law::computed_torque) {
-    dynamics_.mass_times(span_of(std::as_const(psi_)), span_of(desired.psidd), now.t, span_of(feedforward_));
+    dynamics_.evaluate(Purpose::mass_times,
+                       {.psi = span_of(std::as_const(psi_)), .input = span_of(desired.psidd), .t = now.t},
+                       span_of(feedforward_));
     out += feedforward_;
   }
   if (law == Law::pd_gravity || law == Law::computed_torque) {
-    dynamics_.bias(span_of(std::as_const(psi_)), span_of(std::as_const(psid_)), now.t, span_of(bias_));
+    dynamics_.evaluate(
+        Purpose::bias,
+        {.psi = span_of(std::as_const(psi_)), .psid = span_of(std::as_const(psid_)), .t = now.t},
+        span_of(bias_));
     out += bias_.head(n_u);
   }
 }

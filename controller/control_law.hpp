@@ -3,7 +3,7 @@
 
 #include "controller/controller_settings.hpp"
 #include "controller/measurement.hpp"
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "planner/reference.hpp"
 
 namespace mixloop {
@@ -12,13 +12,15 @@ namespace mixloop {
 /// knows of the robot, not what the plant is.
 class Controller {
  public:
-  Controller(Dynamics dynamics, ControllerSettings settings);
+  Controller(Equations::Workspace dynamics, ControllerSettings settings);
 
   /// tau (n_u). Allocates nothing.
   void torque(const Measurement& now, const Reference& desired, std::span<double> tau);
 
+  const Equations& equations() const { return dynamics_.equations(); }
+
  private:
-  Dynamics dynamics_;
+  Equations::Workspace dynamics_;
   ControllerSettings settings_;
   Vector psi_, psid_;          ///< n: where the model is evaluated
   Vector feedforward_, bias_;  ///< n_u, n

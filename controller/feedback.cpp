@@ -5,25 +5,27 @@
 
 namespace mixloop {
 
-Matrix forward_dynamics_slopes(Dynamics& dynamics, const PsiMotion& at, double t) {
+Matrix forward_dynamics_slopes(Equations::Workspace& dynamics, const PsiMotion& at, double t) {
   const auto n = at.psi.size(), n_u = static_cast<Eigen::Index>(dynamics.scene().n_u());
   Vector tau(n);
-  dynamics.inverse_dynamics(span_of(at.psi), span_of(at.psid), span_of(at.psidd), t, span_of(tau));
+  dynamics.evaluate(Purpose::inverse_dynamics, {span_of(at.psi), span_of(at.psid), span_of(at.psidd), t},
+                    span_of(tau));
   Matrix slopes(n, 2 * n + n_u);
-  dynamics.linearisation(span_of(at.psi), span_of(at.psid),
-                         span_of(std::as_const(tau)).first(static_cast<std::size_t>(n_u)), t,
-                         {slopes.data(), static_cast<std::size_t>(slopes.size())});
+  const auto of_motors = span_of(std::as_const(tau)).first(static_cast<std::size_t>(n_u));
+  dynamics.evaluate(Purpose::linearisation, {span_of(at.psi), span_of(at.psid), of_motors, t},
+                    {slopes.data(), static_cast<std::size_t>(slopes.size())});
   return slopes;
 }
 
-InverseDynamicsSlope inverse_dynamics_slope(Dynamics& dynamics, const PsiMotion& at, double t) {
+InverseDynamicsSlope inverse_dynamics_slope(Equations::Workspace& dynamics, const PsiMotion& at, double t) {
   const auto n = at.psi.size();
   const Matrix slopes = forward_dynamics_slopes(dynamics, at, t);
   const Matrix by_state = solved(slopes.rightCols(n), slopes.leftCols(2 * n));
   return {-by_state.leftCols(n), -by_state.rightCols(n)};
 }
 
-Feedback feedback(const ControllerSettings& settings, Dynamics& model, const PsiMotion& at, double t) {
+Feedback feedback(const ControllerSettings& settings, Equations::Workspace& model, const PsiMotion& at,
+                  double t) {
   const auto n_u = settings.kp.size(), n = at.psi.size();
   const Vector zero = Vector::Zero(n);
   const auto slope = [&](const Vector& psid, const Vector& psidd) {

@@ -59,7 +59,7 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   const NodePtr faults = root.find("faults");
   if (faults)
     plant.faults.scheduled = read_faults(faults, *experiment.scene,
-                                         has_damping(*experiment.scene) || plant.actuators.has_friction(),
+                                         experiment.scene->has_friction() || plant.actuators.has_friction(),
                                          experiment.rate_hz, experiment.plant_parameters);
   if (const NodePtr seed = root.find("seed"))
     plant.seed = static_cast<std::uint64_t>(whole_number_of(*seed, 0, 1L << 53, "the seed"));
@@ -155,9 +155,10 @@ Plan make_plan(const Experiment& experiment) {
 }
 
 Controller make_controller(const Experiment& experiment) {
-  return Controller(Dynamics(experiment.controller_scene, experiment.controller_parameters,
-                             experiment.evaluation, {Purpose::mass_times, Purpose::bias}),
-                    experiment.controller);
+  return Controller(
+      {equations_of(experiment.controller_scene, experiment.evaluation, {Purpose::mass_times, Purpose::bias}),
+       experiment.controller_parameters},
+      experiment.controller);
 }
 
 GuardedController make_guarded_controller(const Experiment& experiment) {
@@ -183,15 +184,11 @@ Plant make_plant(const Experiment& experiment, const Plan& plan) {
   const auto& initial = experiment.plant.initial_psi;
   Vector start = map_of(std::span(initial.empty() ? experiment.scene->home : initial));
   start.head(plan.n_u()) = plan.at(0).psi;
-  const auto dynamics = [&](std::initializer_list<Purpose> purposes) {
-    return Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation, purposes);
-  };
   PlantSettings settings = experiment.plant;
   settings.parameters = experiment.plant_parameters;
-  return Plant(facts(experiment.plant.integrator).jacobian
-                   ? dynamics({Purpose::forward_dynamics, Purpose::linearisation})
-                   : dynamics({Purpose::forward_dynamics}),
-               std::move(settings), experiment.rate_hz, span_of(std::as_const(start)));
+  Equations::Workspace dynamics(plant_equations(experiment.scene, experiment.evaluation, settings),
+                                experiment.plant_parameters);
+  return Plant(std::move(dynamics), std::move(settings), experiment.rate_hz, span_of(std::as_const(start)));
 }
 
 DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "dynamics/procedure/decompositions.hpp"
 #include "dynamics/program/trace.hpp"
 #include "integrators/integrator.hpp"
@@ -29,8 +29,10 @@ class Chooser {
  public:
   Chooser(const std::shared_ptr<const Scene>& scene, const std::vector<double>& parameters, double rate_hz,
           double local_error)
-      : dynamics_(scene, parameters, Evaluation::machine_code,
-                  {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::linearisation}),
+      : dynamics_(
+            equations_of(scene, Evaluation::machine_code,
+                         {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::linearisation}),
+            parameters),
         n_(scene->n()),
         n_u_(scene->n_u()),
         tick_(1 / rate_hz),
@@ -46,8 +48,9 @@ class Chooser {
       const PsiMotion at = whole_motion(dynamics_.scene(), plan.at(k));
       Sample sample{static_cast<double>(k) * tick_, Vector(2 * n_), Vector(n_), {}, {}};
       sample.start << at.psi, at.psid;
-      dynamics_.inverse_dynamics(span_of(at.psi), span_of(at.psid), span_of(at.psidd), sample.t,
-                                 span_of(sample.tau));
+      dynamics_.evaluate(Purpose::inverse_dynamics,
+                         {span_of(at.psi), span_of(at.psid), span_of(at.psidd), sample.t},
+                         span_of(sample.tau));
       sample.tau.conservativeResize(n_u_);
       sample.jacobian = {Matrix(n_, n_), Matrix(n_, n_), Vector::Zero(n_)};
       linearise(sample, sample.t, sample.start, sample.jacobian);
@@ -89,7 +92,7 @@ class Chooser {
 
   void linearise(const Sample& sample, double t, const Vector& x, AccelerationJacobian<double>& jacobian) {
     Vector out(n_ * (2 * n_ + n_u_));
-    dynamics_.linearisation(psi(x), psid(x), span_of(sample.tau), t, span_of(out));
+    dynamics_.evaluate(Purpose::linearisation, {psi(x), psid(x), span_of(sample.tau), t}, span_of(out));
     jacobian.by_q = Eigen::Map<const Matrix>(out.data(), n_, n_);
     jacobian.by_v = Eigen::Map<const Matrix>(out.data() + n_ * n_, n_, n_);
   }
@@ -100,8 +103,9 @@ class Chooser {
         x, tick_,
         [&](int, int, double after, const Vector& at, Vector& dx) {
           dx.head(n_) = at.tail(n_);
-          dynamics_.forward_dynamics(psi(at), psid(at), span_of(sample.tau), sample.t + after,
-                                     {dx.data() + n_, static_cast<std::size_t>(n_)});
+          dynamics_.evaluate(Purpose::forward_dynamics,
+                             {psi(at), psid(at), span_of(sample.tau), sample.t + after},
+                             {dx.data() + n_, static_cast<std::size_t>(n_)});
         },
         [&](double after, const Vector& at, auto& jacobian) {
           linearise(sample, sample.t + after, at, jacobian);
@@ -162,7 +166,7 @@ class Chooser {
     return {x.data() + n_, static_cast<std::size_t>(n_)};
   }
 
-  Dynamics dynamics_;
+  Equations::Workspace dynamics_;
   int n_, n_u_;
   double tick_, local_error_, jacobian_cost_;
   std::vector<Sample> samples_;

@@ -17,8 +17,8 @@ bool all_finite(std::span<const double> values) {
 
 Recorder::Recorder(const Experiment& experiment, const Plan& plan)
     : plan_(plan),
-      kinematics_(experiment.scene, experiment.plant_parameters, experiment.evaluation,
-                  {Purpose::end_effector}),
+      kinematics_(equations_of(experiment.scene, experiment.evaluation, {Purpose::end_effector}),
+                  experiment.plant_parameters),
       axes_(experiment.scene->end_effector.axes),
       n_(experiment.scene->independent.size()),
       n_u_(experiment.scene->motors().size()),
@@ -27,7 +27,7 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
       rows_(static_cast<std::size_t>(plan.ticks() + 3) * width()),
       conditions_{-1, 1},
       zero_(n_, 0.0),
-      hand_(static_cast<std::size_t>(output_size(Purpose::end_effector, experiment.scene->n()))) {
+      hand_(kinematics_.outputs(Purpose::end_effector)) {
   measures_.max_torque = Vector::Zero(experiment.scene->n_u());
   const auto& parameters = experiment.plant_parameters;
   conditions_.insert(conditions_.end(), parameters.begin(), parameters.end());
@@ -58,7 +58,7 @@ Recorder::Conditions Recorder::conditions(std::int64_t k) const {
 
 bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work) {
   if (!all_finite(psi) || !all_finite(psid) || !std::isfinite(work)) return diverged(k);
-  kinematics_.end_effector(psi, psid, zero_, time(k), hand_);
+  kinematics_.evaluate(Purpose::end_effector, {psi, psid, zero_, time(k)}, hand_);
   error_ =
       mixloop::position_error(Eigen::Map<const Eigen::Vector3d>(hand_.data()), plan_.at(k).position, axes_);
   if (!measures_.safe_at && !(error_ <= limit_)) return diverged(k);

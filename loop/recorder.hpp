@@ -47,6 +47,7 @@ class Recorder {
   double position_error() const { return error_; }  ///< at the latest state, m
 
   Measures measures() const;
+  const Equations& equations() const { return kinematics_.equations(); }
 
  private:
   const double* row(std::int64_t k) const {
@@ -58,7 +59,7 @@ class Recorder {
   bool diverged(std::int64_t k);
 
   const Plan& plan_;
-  Dynamics kinematics_;
+  Equations::Workspace kinematics_;
   std::vector<int> axes_;
   std::size_t n_, n_u_;
   double rate_hz_, limit_;

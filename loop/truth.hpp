@@ -2,7 +2,6 @@
 #pragma once
 
 #include "loop/recorder.hpp"
-#include "plant/changing_dynamics.hpp"
 
 namespace mixloop {
 
@@ -23,7 +22,7 @@ class TruthReader {
 
  private:
   const Recorder& recorder_;
-  ChangingDynamics dynamics_;
+  Equations::Workspace dynamics_;
   std::int64_t conditions_since_ = -1;
   std::vector<double> hand_;
   Truth truth_;

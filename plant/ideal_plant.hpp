@@ -12,23 +12,24 @@
 namespace mixloop {
 
 /// A plant with ideal drives and sensors, on any scalar: its constant model and what an evaluation needs
-/// beside it; states are the caller's. `Equations` has evaluate(purpose, {psi, psid, tau, t}, out) for the
-/// forward dynamics and, for methods with a Jacobian, their linearisation. Nothing allocates after
-/// construction.
-template <class T, class Equations>
+/// beside it; states are the caller's. `Dynamics` (Equations::Workspace) has evaluate(purpose, {psi, psid,
+/// tau, t}, out) for the forward dynamics and, for methods with a Jacobian, their linearisation. Nothing
+/// allocates after construction.
+template <class T, class Dynamics>
 class IdealPlant {
  public:
   using State = IdealState<T>;
 
-  IdealPlant(PlantModel model, Equations equations)
+  IdealPlant(PlantModel model, Dynamics dynamics)
       : model_(std::move(model)),
-        equations_(std::move(equations)),
+        dynamics_(std::move(dynamics)),
         integrator_(model_.integrator, n(), 2 * n() + 1),
         before_(n_u()),
         slopes_(n() * (2 * n() + n_u())) {}
 
   const PlantModel& model() const { return model_; }
-  Equations& equations() { return equations_; }
+  Dynamics& dynamics() { return dynamics_; }
+  const Dynamics& dynamics() const { return dynamics_; }
   Integrator<T>& integrator() { return integrator_; }
 
   /// `tau` acts from now on, as far as the motors can give it.
@@ -65,8 +66,8 @@ class IdealPlant {
   void rate_of(const State& state, const T& t, const Vec<T>& x, Vec<T>& dx) {
     const std::span<const T> psi(x.data(), model_.n), psid(x.data() + n(), model_.n);
     std::copy(psid.begin(), psid.end(), dx.data());
-    equations_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t},
-                        {dx.data() + n(), model_.n});
+    dynamics_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t},
+                       {dx.data() + n(), model_.n});
     dx[2 * n()] = state.applied.dot(x.segment(n(), n_u()));
   }
 
@@ -76,7 +77,7 @@ class IdealPlant {
 
   void linearise(const State& state, const T& t, const Vec<T>& x, AccelerationJacobian<T>& jacobian) {
     const std::span<const T> psi(x.data(), model_.n), psid(x.data() + n(), model_.n);
-    equations_.evaluate(Purpose::linearisation, {psi, psid, span_of(state.applied), t}, span_of(slopes_));
+    dynamics_.evaluate(Purpose::linearisation, {psi, psid, span_of(state.applied), t}, span_of(slopes_));
     jacobian.by_q = Eigen::Map<const Mat<T>>(slopes_.data(), n(), n());
     jacobian.by_v = Eigen::Map<const Mat<T>>(slopes_.data() + n() * n(), n(), n());
     if (!model_.timed) return;
@@ -84,13 +85,13 @@ class IdealPlant {
     using std::abs, std::max;
     const T d = 6e-6 * max(T(1), T(abs(t)));
     auto later = span_of(jacobian.by_t), earlier = span_of(slopes_).first(model_.n);
-    equations_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t + d}, later);
-    equations_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t - d}, earlier);
+    dynamics_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t + d}, later);
+    dynamics_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t - d}, earlier);
     jacobian.by_t = (jacobian.by_t - slopes_.head(n())) / (2 * d);
   }
 
   PlantModel model_;
-  Equations equations_;
+  Dynamics dynamics_;
   Integrator<T> integrator_;
   Vec<T> before_, slopes_;  ///< n_u; n (2 n + n_u), of methods with a Jacobian
 };

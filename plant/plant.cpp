@@ -5,15 +5,13 @@
 
 namespace mixloop {
 
-namespace {
-
-ChangingDynamics changing(Dynamics dynamics, const PlantSettings& settings) {
-  const auto parameters = parameters_of(settings, dynamics.scene());
-  return {std::move(dynamics), parameters, settings.faults.change_friction(),
-          facts(settings.integrator).jacobian};
+std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
+                                                 const PlantSettings& settings) {
+  const Equations::Options options{.friction_factor = settings.faults.change_friction()};
+  if (!facts(settings.integrator).jacobian)
+    return equations_of(std::move(scene), how, {Purpose::forward_dynamics}, options);
+  return equations_of(std::move(scene), how, {Purpose::forward_dynamics, Purpose::linearisation}, options);
 }
-
-}  // namespace
 
 /// What acts on the mechanism: ideal drives or not.
 struct Plant::Drives {
@@ -25,13 +23,14 @@ struct Plant::Drives {
   }
 };
 
-Plant::Plant(Dynamics dynamics, const PlantSettings& settings, double rate_hz, std::span<const double> psi0)
-    : ideal_{plant_model(settings, dynamics.scene(), rate_hz), changing(std::move(dynamics), settings)},
+Plant::Plant(Equations::Workspace dynamics, const PlantSettings& settings, double rate_hz,
+             std::span<const double> psi0)
+    : ideal_{plant_model(settings, dynamics.scene(), rate_hz), std::move(dynamics)},
       rows_(stage_rows(settings.integrator)),
       faults_may_come_(settings.faults.injected),
       state_{.motion = state_at(model(), psi0)} {
   if (!Hardware::needed(settings)) return;
-  hardware_.emplace(settings, ideal_.equations().scene(), rate_hz);
+  hardware_.emplace(settings, ideal_.dynamics().scene(), rate_hz);
   state_.hardware = hardware_->state();
   begin_tick();
 }
@@ -39,7 +38,7 @@ Plant::Plant(Dynamics dynamics, const PlantSettings& settings, double rate_hz, s
 void Plant::put_back(const PlantState& state) {
   state_ = state;
   if (const auto* faults = this->faults())
-    ideal_.equations().set_parameters(faults->parameters, faults->friction);
+    ideal_.dynamics().set_parameters(faults->parameters, faults->friction);
 }
 
 void Plant::command(std::span<const double> tau) { take_command(model(), state_.motion, tau, Drives{*this}); }
@@ -66,7 +65,7 @@ void Plant::lock() {
 }
 
 void Plant::acceleration(std::span<double> psidd) {
-  ideal_.equations().evaluate(Purpose::forward_dynamics, {psi(), psid(), applied(), time()}, psidd);
+  ideal_.dynamics().evaluate(Purpose::forward_dynamics, {psi(), psid(), applied(), time()}, psidd);
 }
 
 void Plant::take(std::span<const double> tau) {

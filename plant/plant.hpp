@@ -5,18 +5,23 @@
 #include <optional>
 #include <span>
 
-#include "plant/changing_dynamics.hpp"
+#include "dynamics/equations.hpp"
 #include "plant/hardware.hpp"
 #include "plant/ideal_plant.hpp"
 
 namespace mixloop {
+
+/// The equations that a plant of these settings evaluates.
+std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
+                                                 const PlantSettings& settings);
 
 /// The simulated hardware: constraint-reduced forward dynamics, a torque held from command to command (or
 /// continuous), dead time and saturation; drives, sensors and faults where settings ask for them. It knows
 /// ticks, no clock. Nothing allocates after construction.
 class Plant {
  public:
-  Plant(Dynamics dynamics, const PlantSettings& settings, double rate_hz, std::span<const double> psi0);
+  Plant(Equations::Workspace dynamics, const PlantSettings& settings, double rate_hz,
+        std::span<const double> psi0);
 
   /// All that it remembers.
   const PlantState& state() const { return state_; }
@@ -65,6 +70,7 @@ class Plant {
   template <class Control>
   void advance_continuously(const Control& control);
 
+  const Equations& equations() const { return ideal_.dynamics().equations(); }
   /// psi'' at the state in hand with `applied()`.
   void acceleration(std::span<double> psidd);
 
@@ -79,7 +85,7 @@ class Plant {
   void drive(double s, std::span<const double> psi, std::span<const double> psid);
   void driven_rate_of(double s, double t, const Vector& x, Vector& dx);
 
-  IdealPlant<double, ChangingDynamics> ideal_;
+  IdealPlant<double, Equations::Workspace> ideal_;
   StageRows rows_;
   bool faults_may_come_;              ///< by inject
   std::optional<Hardware> hardware_;  ///< none: ideal

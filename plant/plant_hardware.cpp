@@ -16,7 +16,7 @@ bool Plant::measure(std::span<double> psi_out, std::span<double> psid_out) {
 
 bool Plant::inject(const Fault& fault) {
   if (!faults_may_come_ ||
-      !hardware_->faults->inject(state_.hardware.faults, fault, ideal_.equations().scene(), tick()))
+      !hardware_->faults->inject(state_.hardware.faults, fault, ideal_.dynamics().scene(), tick()))
     return false;
   take_changes();
   return true;
@@ -32,7 +32,7 @@ void Plant::begin_tick() {
 void Plant::take_changes() {
   const HardwareState& hardware = state_.hardware;
   if (const auto* faults = this->faults(); faults && faults->changed_at == tick())
-    ideal_.equations().set_parameters(faults->parameters, faults->friction);
+    ideal_.dynamics().set_parameters(faults->parameters, faults->friction);
   if (hardware.was_asked && !state_.motion.locked) take(span_of(hardware.asked));
 }
 

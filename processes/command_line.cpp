@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstring>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "loop/result.hpp"
@@ -24,6 +25,13 @@ int report(bool json, const char* program, const std::string& code, const std::s
 }
 
 }  // namespace
+
+void say_complaint(const std::string& complaint) {
+  static std::once_flag said;
+  if (complaint.empty()) return;
+  std::call_once(
+      said, [&] { fmt::print(stderr, "mixloop: programs are interpreted, not compiled: {}\n", complaint); });
+}
 
 int run_command_line(int argc, char** argv, CLI::App& app, const int& status) {
   bool json = false;

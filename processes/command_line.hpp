@@ -37,6 +37,10 @@ void add_seconds_option(CLI::App& command, const std::string& name, double& seco
 /// `--evaluation`: how the equations of motion are evaluated.
 void add_evaluation_option(CLI::App& command, Evaluation& evaluation);
 
+/// Says on stderr, once a process, why programs are interpreted that should have been compiled, if any is
+/// (Equations::complaint).
+void say_complaint(const std::string& complaint);
+
 /// One JSON object on stdout, and nothing else.
 void print_json(const nlohmann::json& json);
 

@@ -14,6 +14,7 @@ int run(const PeerLine& line) {
   const Experiment experiment = line.load();
   const Plan plan = make_plan(experiment);
   GuardedController controller = make_guarded_controller(experiment);
+  say_complaint(controller.law().equations().complaint());
 
   Bus bus(line.bus);
   ControllerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()),

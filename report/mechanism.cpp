@@ -12,25 +12,26 @@ Mechanism::Mechanism(std::shared_ptr<const Scene> scene, std::vector<double> par
     : scene_(std::move(scene)),
       model_(make_model<double>(scene_, std::span<const double>(parameters))),
       ws_(model_),
-      dynamics_(scene_, parameters, Evaluation::interpreter,
-                {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy}),
-      psidd_(static_cast<std::size_t>(scene_->n())),
-      hand_(static_cast<std::size_t>(output_size(Purpose::end_effector, scene_->n()))) {}
+      dynamics_(equations_of(scene_, Evaluation::interpreter,
+                             {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy}),
+                parameters),
+      psidd_(dynamics_.outputs(Purpose::forward_dynamics)),
+      hand_(dynamics_.outputs(Purpose::end_effector)) {}
 
 void Mechanism::complete(Tick& tick) {
   if (tick.psi.empty() || std::isnan(tick.psi[0])) return;
   coordinates<double>(model_, std::span<const double>(tick.psi), tick.t, ws_);
   tick.q.assign(ws_.q.begin(), ws_.q.end());
   if (std::isnan(tick.actual.position[0])) {
-    dynamics_.forward_dynamics(tick.psi, tick.psid, tick.tau_applied, tick.t, psidd_);
-    dynamics_.end_effector(tick.psi, tick.psid, psidd_, tick.t, hand_);
+    dynamics_.evaluate(Purpose::forward_dynamics, {tick.psi, tick.psid, tick.tau_applied, tick.t}, psidd_);
+    dynamics_.evaluate(Purpose::end_effector, {tick.psi, tick.psid, psidd_, tick.t}, hand_);
     tick.actual.position = Eigen::Map<const Eigen::Vector3d>(hand_.data());
     tick.actual.velocity = Eigen::Map<const Eigen::Vector3d>(hand_.data() + 3);
     tick.actual.acceleration = Eigen::Map<const Eigen::Vector3d>(hand_.data() + 6);
   }
   if (!std::isnan(tick.kinetic_energy)) return;
   double energy[2];
-  dynamics_.energy(tick.psi, tick.psid, tick.t, energy);
+  dynamics_.evaluate(Purpose::energy, {.psi = tick.psi, .psid = tick.psid, .t = tick.t}, energy);
   tick.kinetic_energy = energy[0];
   tick.potential_energy = energy[1];
 }

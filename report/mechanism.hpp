@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "dynamics/procedure/workspace.hpp"
 #include "report/tick.hpp"
 
@@ -22,7 +22,7 @@ class Mechanism {
   std::shared_ptr<const Scene> scene_;
   Model<double> model_;
   Workspace<double> ws_;
-  Dynamics dynamics_;
+  Equations::Workspace dynamics_;
   std::vector<double> psidd_, hand_;
 };
 

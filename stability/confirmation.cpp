@@ -21,10 +21,11 @@ class Holding {
     tau_ = Vector::Zero(n_u);
     const PsiMotion still = with_free_at_home(*experiment.scene, {start.psi, {}, {}});
     Vector needed(still.psi.size());
-    Dynamics dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
-                      {Purpose::inverse_dynamics});
-    dynamics.inverse_dynamics(span_of(still.psi), span_of(still.psid), span_of(still.psidd), 0,
-                              span_of(needed));
+    Equations::Workspace dynamics(
+        equations_of(experiment.scene, experiment.evaluation, {Purpose::inverse_dynamics}),
+        experiment.plant_parameters);
+    dynamics.evaluate(Purpose::inverse_dynamics,
+                      {span_of(still.psi), span_of(still.psid), span_of(still.psidd)}, span_of(needed));
     controller_.torque({span_of(still.psi), span_of(still.psid)}, start_, span_of(tau_));
     support_ = needed.head(n_u) - tau_;
   }
@@ -46,9 +47,9 @@ class Holding {
     PlantSettings settings = ideal(experiment.plant);
     settings.command_delay = sampling.delay;
     settings.torque_limit.clear();
-    return Plant(Dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation,
-                          {Purpose::forward_dynamics}),
-                 settings, 1 / sampling.tick, span_of(std::as_const(psi)));
+    return Plant(
+        {plant_equations(experiment.scene, experiment.evaluation, settings), experiment.plant_parameters},
+        settings, 1 / sampling.tick, span_of(std::as_const(psi)));
   }
 
   const Reference start_;

@@ -8,9 +8,9 @@
 namespace mixloop {
 namespace {
 
-Dynamics linear_dynamics(const std::shared_ptr<const Scene>& scene, const std::vector<double>& parameters,
-                         Evaluation how) {
-  return {scene, parameters, how, {Purpose::inverse_dynamics, Purpose::linearisation}};
+Equations::Workspace linear_dynamics(const std::shared_ptr<const Scene>& scene,
+                                     const std::vector<double>& parameters, Evaluation how) {
+  return {equations_of(scene, how, {Purpose::inverse_dynamics, Purpose::linearisation}), parameters};
 }
 
 }  // namespace

@@ -20,13 +20,14 @@ class Linearisation {
  public:
   explicit Linearisation(const Experiment& experiment);
 
+  const Equations& equations() const { return plant_.equations(); }
   /// At a reference that the plant follows exactly, its free coordinates at rest at home.
   LinearLoop at(const Reference& reference, double t);
 
  private:
   const std::shared_ptr<const Scene> scene_;
   const ControllerSettings settings_;
-  Dynamics plant_, model_;
+  Equations::Workspace plant_, model_;
 };
 
 }  // namespace mixloop

@@ -13,9 +13,11 @@ void narrow(Narrowest& narrowest, const std::optional<double>& value, double tim
 }  // namespace
 
 Survey survey(const Experiment& experiment, const Plan& plan, int poses) {
-  Survey survey{
-      .sampling = {1 / experiment.rate_hz, experiment.plant.command_delay}, .times = {}, .loops = {}};
   Linearisation linearisation(experiment);
+  Survey survey{.sampling = {1 / experiment.rate_hz, experiment.plant.command_delay},
+                .times = {},
+                .loops = {},
+                .complaint = linearisation.equations().complaint()};
   const auto span = static_cast<double>(plan.ticks() - plan.start_tick());
   for (int i = 0; i < poses; ++i) {
     const auto k = plan.start_tick() + std::llround(span * i / (poses - 1));

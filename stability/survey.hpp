@@ -10,6 +10,7 @@ struct Survey {
   Sampling sampling;          ///< the experiment's
   std::vector<double> times;  ///< s, from the start of the path
   std::vector<LinearLoop> loops;
+  std::string complaint;  ///< of Equations
 };
 
 /// At `poses` instants evenly spread over the path, both ends included (at least 2).

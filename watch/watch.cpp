@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "loop/position_error.hpp"
 #include "runtime/protocol/config_hash.hpp"
 
@@ -37,9 +37,8 @@ Watch::Watch(const std::string& prefix, std::optional<Experiment> experiment, In
   for (std::size_t i = 0; i < kChannelNames.size(); ++i)
     counts_.emplace_back(prefix + kChannelNames[i], by_tick(static_cast<Channel>(i)), start);
   if (experiment_)
-    kinematics_ =
-        std::make_unique<Dynamics>(experiment_->scene, experiment_->plant_parameters, Evaluation::interpreter,
-                                   std::initializer_list<Purpose>{Purpose::end_effector});
+    kinematics_.emplace(equations_of(experiment_->scene, Evaluation::interpreter, {Purpose::end_effector}),
+                        experiment_->plant_parameters);
 }
 
 Watch::~Watch() = default;
@@ -154,11 +153,11 @@ void Watch::compare_motors(const HeardTick& tick) {
     motors_[i].error.now = error;
     if (counts) motors_[i].error.add(error);
   }
-  if (!kinematics_ || static_cast<std::size_t>(kinematics_->n()) != n_) return;
+  if (!kinematics_ || static_cast<std::size_t>(kinematics_->scene().n()) != n_) return;
   const std::vector<double> zero(n_, 0.0);
-  std::vector<double> hand(static_cast<std::size_t>(output_size(Purpose::end_effector, kinematics_->n())));
-  kinematics_->end_effector(state->psi_measured, zero, zero,
-                            static_cast<double>(tick.k) / experiment_->rate_hz, hand);
+  std::vector<double> hand = kinematics_->outputs(Purpose::end_effector);
+  const double t = static_cast<double>(tick.k) / experiment_->rate_hz;
+  kinematics_->evaluate(Purpose::end_effector, {state->psi_measured, zero, zero, t}, hand);
   compare_position(Eigen::Map<const Eigen::Vector3d>(hand.data()), *reference, state->utime);
 }
 

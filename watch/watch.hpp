@@ -94,7 +94,7 @@ class Watch {
   std::vector<std::string> warnings() const;
 
   std::optional<Experiment> experiment_;
-  std::unique_ptr<Dynamics> kinematics_;
+  std::optional<Equations::Workspace> kinematics_;
   std::vector<ChannelCount> counts_;
   AnyMessage message_;
   SessionFollower session_{0};

@@ -81,7 +81,7 @@ void constant_cos_sin(double angle, T& cosine, T& sine) {
 
 }  // namespace detail
 
-/// The model of `scene` at these parameter values (as many as the scene has, in its order).
+/// The model of `scene` at these parameter values (as its default_parameters()).
 /// The scene has been checked for its defaults; check_physical does so for others.
 template <class T>
 Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> parameters) {
@@ -143,9 +143,11 @@ Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> param
     model.bodies.push_back(std::move(made));
   }
   for (const auto& load : scene->loads) model.loads.push_back({load.frame, vector(load.point)});
-  for (const auto& load : scene->coordinate_loads)
-    model.coordinate_loads.push_back(
-        {load.coordinate, number(load.stiffness), number(load.rest), number(load.damping)});
+  for (const auto& load : scene->coordinate_loads) {
+    T damping = number(load.damping);
+    if (scene->friction_factor) damping *= parameters[scene->parameters.size()];
+    model.coordinate_loads.push_back({load.coordinate, number(load.stiffness), number(load.rest), damping});
+  }
   model.gravity = vector(scene->gravity);
   model.end_effector_point = vector(scene->end_effector.point);
   return model;

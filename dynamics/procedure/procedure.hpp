@@ -71,13 +71,14 @@ const Vec<T>& inverse_dynamics(const Model<T>& model, std::span<const T> psi, st
   return ws.out;
 }
 
-/// (30) for psi'': M^-1 (tau - h), n. Not finite where M is singular.
+/// (30) for psi'': M^-1 (tau - h), n, for the motors' tau, n_u. Not finite where M is singular.
 template <class T>
 const Vec<T>& forward_dynamics(const Model<T>& model, std::span<const T> psi, std::span<const T> psid,
                                std::span<const T> tau, const T& t, Workspace<T>& ws) {
   detail::assemble(model, psi, psid, t, ws);
   detail::project_mass(model, ws);
-  for (int i = 0; i < model.n(); ++i) ws.out[i] = tau[static_cast<std::size_t>(i)] - ws.h[i];
+  for (int i = 0; i < model.n_u(); ++i) ws.out[i] = tau[static_cast<std::size_t>(i)] - ws.h[i];
+  for (int i = model.n_u(); i < model.n(); ++i) ws.out[i] = -ws.h[i];
   ws.L = ws.M;
   factor_ldlt(ws.L);
   solve_ldlt(ws.L, ws.out);

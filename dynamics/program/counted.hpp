@@ -2,9 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 
-#include "dynamics/program/program.hpp"
+#include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
 
@@ -27,21 +26,24 @@ class Counted {
   Counted& operator*=(const Counted& y) { return *this = *this * y; }
   Counted& operator/=(const Counted& y) { return *this = *this / y; }
 
-  friend Counted operator+(const Counted& x, const Counted& y) { return ++count().add, x.value_ + y.value_; }
-  friend Counted operator-(const Counted& x, const Counted& y) { return ++count().add, x.value_ - y.value_; }
-  friend Counted operator*(const Counted& x, const Counted& y) { return ++count().mul, x.value_ * y.value_; }
-  friend Counted operator/(const Counted& x, const Counted& y) { return ++count().div, x.value_ / y.value_; }
-  friend Counted sqrt(const Counted& x) { return ++count().sqrt, std::sqrt(x.value_); }
+  friend Counted operator+(const Counted& x, const Counted& y) { return of(Op::add, x, y); }
+  friend Counted operator-(const Counted& x, const Counted& y) { return of(Op::sub, x, y); }
+  friend Counted operator*(const Counted& x, const Counted& y) { return of(Op::mul, x, y); }
+  friend Counted operator/(const Counted& x, const Counted& y) { return of(Op::div, x, y); }
+  friend Counted sqrt(const Counted& x) { return of(Op::sqrt, x); }
   // A sine and its cosine are one pair, counted with the sine.
-  friend Counted sin(const Counted& x) { return ++count().sincos, std::sin(x.value_); }
-  friend Counted cos(const Counted& x) { return std::cos(x.value_); }
-  friend Counted exp(const Counted& x) { return ++count().other, std::exp(x.value_); }
-  friend Counted log(const Counted& x) { return ++count().other, std::log(x.value_); }
-  friend Counted atan2(const Counted& y, const Counted& x) {
-    return ++count().other, std::atan2(y.value_, x.value_);
-  }
+  friend Counted sin(const Counted& x) { return of(Op::sin, x); }
+  friend Counted cos(const Counted& x) { return apply(Op::cos, x.value_); }
+  friend Counted exp(const Counted& x) { return of(Op::exp, x); }
+  friend Counted log(const Counted& x) { return of(Op::log, x); }
+  friend Counted atan2(const Counted& y, const Counted& x) { return of(Op::atan2, y, x); }
 
  private:
+  static Counted of(Op op, const Counted& x, const Counted& y = 0.0) {
+    ++(count().*operation(op).count);
+    return apply(op, x.value_, y.value_);
+  }
+
   double value_ = 0.0;
 };
 

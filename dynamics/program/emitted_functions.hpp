@@ -4,17 +4,18 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "dynamics/program/shared_object.hpp"
 
 namespace mixloop {
 
-/// The functions of an emitted program in its loaded library (source.hpp), and what its set-up part leaves
-/// for evaluations. Time is a double, or a pointer to one a lane.
+/// The functions of an emitted program in its loaded library (source.hpp). Time is a double, or a pointer to
+/// one a lane.
 template <class Time>
 class EmittedFunctions {
  public:
+  using Evaluate = void (*)(const double*, const double*, const double*, Time, const double*, double*);
+
   /// False for an empty library, or with a complaint when a function is missing. `name` is the evaluation's.
   bool load(SharedObject library, const std::string& prefix, const std::string& name,
             std::string& complaint) {
@@ -27,24 +28,24 @@ class EmittedFunctions {
       complaint = "the built program lacks its functions";
       return false;
     }
-    constants_.resize(static_cast<std::size_t>(*count));
+    constants_ = static_cast<std::size_t>(*count);
     return true;
   }
 
-  void set_up(std::span<const double> parameters) noexcept { set_up_(parameters.data(), constants_.data()); }
-  void evaluate(const double* psi, const double* psid, const double* input, Time t,
-                double* outputs) noexcept {
-    evaluate_(psi, psid, input, t, constants_.data(), outputs);
+  /// How many numbers the set-up leaves for evaluations.
+  std::size_t constants() const { return constants_; }
+  void set_up(std::span<const double> parameters, std::span<double> constants) const noexcept {
+    set_up_(parameters.data(), constants.data());
   }
+  Evaluate evaluate() const { return evaluate_; }
 
  private:
   using SetUp = void (*)(const double*, double*);
-  using Evaluate = void (*)(const double*, const double*, const double*, Time, const double*, double*);
 
   SharedObject library_;
   SetUp set_up_ = nullptr;
   Evaluate evaluate_ = nullptr;
-  std::vector<double> constants_;
+  std::size_t constants_ = 0;
 };
 
 }  // namespace mixloop

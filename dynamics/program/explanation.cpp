@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/procedure/procedure.hpp"
+#include "dynamics/procedure/outputs.hpp"
 #include "dynamics/program/counted.hpp"
 #include "dynamics/program/machine_code.hpp"
 
@@ -17,38 +17,14 @@ class LiteralCount {
         model_(make(scene)),
         workspace_(model_),
         psi_(static_cast<std::size_t>(n_), 0.5),
-        other_(psi_) {}
+        other_(static_cast<std::size_t>(2 * n_), 0.5) {}
 
   OperationCount of(Purpose purpose) {
     Counted::count() = {};
-    switch (purpose) {
-      case Purpose::forward_dynamics:
-        forward();
-        break;
-      case Purpose::mass_times:
-        mass_times();
-        break;
-      case Purpose::mass_matrix:
-        mass_matrix<Counted>(model_, psi_, t_, workspace_);
-        break;
-      case Purpose::bias:
-        bias<Counted>(model_, psi_, other_, t_, workspace_);
-        break;
-      case Purpose::inverse_dynamics:
-        inverse_dynamics<Counted>(model_, psi_, other_, other_, t_, workspace_);
-        break;
-      case Purpose::end_effector:
-        end_effector<Counted>(model_, psi_, other_, other_, t_, workspace_);
-        break;
-      case Purpose::energy:
-        energy<Counted>(model_, psi_, other_, t_, workspace_);
-        break;
-      case Purpose::linearisation:  // as differences would take it: one more evaluation a column
-        for (int k = 0; k <= 3 * n_; ++k) forward();
-        break;
-      case Purpose::dynamics_and_mass_times:
-        forward(), mass_times();
-        break;
+    if (purpose != Purpose::linearisation) {
+      evaluate(purpose);
+    } else {  // as differences would take it: one more evaluation a column
+      for (int k = 0; k <= 3 * n_; ++k) evaluate(Purpose::forward_dynamics);
     }
     return Counted::count();
   }
@@ -59,10 +35,9 @@ class LiteralCount {
     const std::vector<Counted> parameters(values.begin(), values.end());
     return make_model<Counted>(scene, std::span<const Counted>(parameters));
   }
-  void forward() { forward_dynamics<Counted>(model_, psi_, other_, other_, t_, workspace_); }
-  void mass_times() {
-    const Vec<Counted> a = map_of(std::span<const Counted>(other_));
-    workspace_.out.noalias() = mass_matrix<Counted>(model_, psi_, t_, workspace_).lazyProduct(a);
+  void evaluate(Purpose purpose) {
+    std::vector<Counted> out(output_size(purpose, n_, model_.n_u()));
+    put_outputs<Counted>(purpose, model_, psi_, other_, other_, t_, workspace_, out.data());
   }
 
   int n_;

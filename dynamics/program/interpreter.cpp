@@ -1,96 +1,84 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/program/interpreter.hpp"
 
-#include <cmath>
-
 #include "dynamics/program/sincos.hpp"
+#include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
 namespace {
 
 using Slot = Tape::Slot;
+using Loop = void (*)(const Tape::Run& run, double* values, const Slot* operand);
 
-template <class Operation>
-void each(const Tape::Run& run, double* values, const Slot* operand, Operation operation) {
-  constexpr int kOperands = std::is_invocable_v<Operation, double>           ? 1
-                            : std::is_invocable_v<Operation, double, double> ? 2
-                                                                             : 3;
+/// A run of one of the graph's operations.
+template <Op op>
+void each(const Tape::Run& run, double* values, const Slot* operand) {
+  constexpr auto value = operation(op).value;
   double* result = values + run.first;
-  for (std::uint32_t k = 0; k < run.count; ++k, operand += kOperands) {
-    if constexpr (kOperands == 1) {
-      result[k] = operation(values[operand[0]]);
-    } else if constexpr (kOperands == 2) {
-      result[k] = operation(values[operand[0]], values[operand[1]]);
+  for (std::uint32_t k = 0; k < run.count; ++k) {
+    if constexpr (op == Op::sin) {
+      mixloop_sincos::sincos(values[operand[k]], result + 2 * k, result + 2 * k + 1);
+    } else if constexpr (is_binary(op)) {
+      result[k] = value(values[operand[2 * k]], values[operand[2 * k + 1]]);
     } else {
-      result[k] = operation(values[operand[0]], values[operand[1]], values[operand[2]]);
+      result[k] = value(values[operand[k]], 0.0);
     }
   }
 }
 
+template <class Operation>
+void each_of_three(const Tape::Run& run, double* values, const Slot* operand) {
+  double* result = values + run.first;
+  for (std::uint32_t k = 0; k < run.count; ++k, operand += 3)
+    result[k] = Operation()(values[operand[0]], values[operand[1]], values[operand[2]]);
+}
+
+struct TimesPlus {
+  double operator()(double a, double b, double c) const { return a * b + c; }
+};
+struct TimesMinus {
+  double operator()(double a, double b, double c) const { return a * b - c; }
+};
+struct MinusTimes {
+  double operator()(double a, double b, double c) const { return c - a * b; }
+};
+
+template <std::size_t... op>
+constexpr std::array<Loop, kTapeOps> loops_of(std::index_sequence<op...>) {
+  return {&each<static_cast<Op>(op)>..., &each_of_three<TimesPlus>, &each_of_three<TimesMinus>,
+          &each_of_three<MinusTimes>};
+}
+constexpr std::array<Loop, kTapeOps> kLoops = loops_of(std::make_index_sequence<kOps>());
+
 void run_tape(const std::vector<Tape::Run>& runs, const Slot* operands, double* values) noexcept {
-  for (const Tape::Run& run : runs) {
-    const Slot* operand = operands + run.operand;
-    switch (run.op) {
-      case TapeOp::neg:
-        each(run, values, operand, [](double a) { return -a; });
-        break;
-      case TapeOp::sqrt:
-        each(run, values, operand, [](double a) { return std::sqrt(a); });
-        break;
-      case TapeOp::exp:
-        each(run, values, operand, [](double a) { return std::exp(a); });
-        break;
-      case TapeOp::log:
-        each(run, values, operand, [](double a) { return std::log(a); });
-        break;
-      case TapeOp::add:
-        each(run, values, operand, [](double a, double b) { return a + b; });
-        break;
-      case TapeOp::sub:
-        each(run, values, operand, [](double a, double b) { return a - b; });
-        break;
-      case TapeOp::mul:
-        each(run, values, operand, [](double a, double b) { return a * b; });
-        break;
-      case TapeOp::div:
-        each(run, values, operand, [](double a, double b) { return a / b; });
-        break;
-      case TapeOp::atan2:
-        each(run, values, operand, [](double a, double b) { return std::atan2(a, b); });
-        break;
-      case TapeOp::mul_add:
-        each(run, values, operand, [](double a, double b, double c) { return a * b + c; });
-        break;
-      case TapeOp::mul_sub:
-        each(run, values, operand, [](double a, double b, double c) { return a * b - c; });
-        break;
-      case TapeOp::sub_mul:
-        each(run, values, operand, [](double a, double b, double c) { return c - a * b; });
-        break;
-      case TapeOp::sincos:
-        for (std::uint32_t k = 0; k < run.count; ++k) {
-          double* pair = values + run.first + 2 * k;
-          mixloop_sincos::sincos(values[operand[k]], pair, pair + 1);
-        }
-        break;
-    }
+  for (const Tape::Run& run : runs)
+    kLoops[static_cast<std::size_t>(run.op)](run, values, operands + run.operand);
+}
+
+double input(const Arguments& at, const Tape::Load& load) {
+  switch (load.block) {
+    case Block::psi:
+      return at.psi[load.index];
+    case Block::psid:
+      return at.psid[load.index];
+    case Block::input:
+      return at.input[load.index];
+    default:
+      return at.t;
   }
 }
 
 }  // namespace
 
-void Interpreter::set_up(std::span<const double> parameters) noexcept {
-  for (const Tape::Load& load : tape_.parameters) tape_.values[load.slot] = parameters[load.index];
-  run_tape(tape_.set_up, tape_.operands.data(), tape_.values.data());
+void Interpreter::set_up(std::span<const double> parameters, Memory& memory) const noexcept {
+  double* values = memory.numbers.data();
+  for (const Tape::Load& load : tape_.parameters) values[load.slot] = parameters[load.index];
+  run_tape(tape_.set_up, tape_.operands.data(), values);
 }
 
-void Interpreter::run(const double* psi, const double* psid, const double* input, double t,
-                      double* outputs) noexcept {
-  double* values = tape_.values.data();
-  for (const Tape::Load& load : tape_.inputs) {
-    const double* block[] = {psi, psid, input, &t};
-    values[load.slot] = block[static_cast<std::size_t>(load.block)][load.index];
-  }
+void Interpreter::work_out(const Arguments& at, Memory& memory, double* outputs) const noexcept {
+  double* values = memory.numbers.data();
+  for (const Tape::Load& load : tape_.inputs) values[load.slot] = input(at, load);
   run_tape(tape_.run, tape_.operands.data(), values);
   for (std::size_t k = 0; k < tape_.outputs.size(); ++k) outputs[k] = values[tape_.outputs[k]];
 }

@@ -11,12 +11,13 @@ class Interpreter final : public Routine {
  public:
   explicit Interpreter(const Program& program) : tape_(make_tape(program)) {}
 
-  void set_up(std::span<const double> parameters) noexcept override;
-  void run(const double* psi, const double* psid, const double* input, double t,
-           double* outputs) noexcept override;
+  Memory make_memory() const override { return {tape_.values, {}}; }
+  void set_up(std::span<const double> parameters, Memory& memory) const noexcept override;
 
  private:
-  Tape tape_;
+  void work_out(const Arguments& at, Memory& memory, double* outputs) const noexcept override;
+
+  const Tape tape_;
 };
 
 }  // namespace mixloop

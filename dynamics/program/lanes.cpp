@@ -29,4 +29,10 @@ std::unique_ptr<LaneCode> LaneCode::load(const std::string& key, const std::func
   return code;
 }
 
+std::vector<double> LaneCode::constants(std::span<const double> parameters) const {
+  std::vector<double> constants(emitted_.constants());
+  emitted_.set_up(parameters, constants);
+  return constants;
+}
+
 }  // namespace mixloop

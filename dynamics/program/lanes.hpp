@@ -5,11 +5,17 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "dynamics/program/emitted_functions.hpp"
 #include "dynamics/program/program.hpp"
 
 namespace mixloop {
+
+/// As Arguments, with a time a lane.
+struct LaneArguments {
+  std::span<const double> psi, psid, input, t;
+};
 
 /// A program's machine code on several states at once (SIMD), for sweeps: lane by lane the bits of the
 /// scalar one. Each number of psi, psid, input, t and the outputs is `width()` consecutive doubles.
@@ -20,10 +26,12 @@ class LaneCode {
                                         std::string& complaint);
 
   int width() const { return width_; }
-  void set_up(std::span<const double> parameters) noexcept { emitted_.set_up(parameters); }
-  void evaluate(const double* psi, const double* psid, const double* input, const double* t,
-                double* outputs) noexcept {
-    emitted_.evaluate(psi, psid, input, t, outputs);
+  /// What the set-up leaves for evaluations at these parameter values; the same for all lanes.
+  std::vector<double> constants(std::span<const double> parameters) const;
+  /// Constant, as a Routine: threads share it.
+  void run(const LaneArguments& at, std::span<const double> constants, double* outputs) const noexcept {
+    emitted_.evaluate()(at.psi.data(), at.psid.data(), at.input.data(), at.t.data(), constants.data(),
+                        outputs);
   }
 
  private:

@@ -20,14 +20,8 @@ std::unique_ptr<MachineCode> MachineCode::load(const std::string& key, const std
   auto code = std::make_unique<MachineCode>();
   SharedObject library = SharedObject::cached("program:" + key, source, complaint);
   if (!code->emitted_.load(std::move(library), style.prefix, style.prefix, complaint)) return nullptr;
+  code->code_ = code->emitted_.evaluate();
   return code;
-}
-
-void MachineCode::set_up(std::span<const double> parameters) noexcept { emitted_.set_up(parameters); }
-
-void MachineCode::run(const double* psi, const double* psid, const double* input, double t,
-                      double* outputs) noexcept {
-  emitted_.evaluate(psi, psid, input, t, outputs);
 }
 
 }  // namespace mixloop

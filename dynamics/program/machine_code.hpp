@@ -27,9 +27,10 @@ class MachineCode final : public Routine {
   static std::unique_ptr<MachineCode> load(const std::string& key, const std::function<Program()>& trace,
                                            std::string& complaint);
 
-  void set_up(std::span<const double> parameters) noexcept override;
-  void run(const double* psi, const double* psid, const double* input, double t,
-           double* outputs) noexcept override;
+  Memory make_memory() const override { return {std::vector<double>(emitted_.constants()), {}}; }
+  void set_up(std::span<const double> parameters, Memory& memory) const noexcept override {
+    emitted_.set_up(parameters, memory.numbers);
+  }
 
  private:
   EmittedFunctions<double> emitted_;

@@ -4,17 +4,9 @@
 #include <algorithm>
 #include <map>
 
-namespace mixloop {
+#include "dynamics/symbolic/operations.hpp"
 
-std::string OperationCount::text() const {
-  std::string result;
-  auto say = [&](std::size_t count, const char* name) {
-    if (count > 0) result += (result.empty() ? "" : " + ") + std::to_string(count) + " " + name;
-  };
-  say(add, "add"), say(mul, "mul"), say(div, "div"), say(sqrt, "sqrt"), say(other, "exp/log/atan2"),
-      say(sincos, "sincos");
-  return result.empty() ? "nothing" : result;
-}
+namespace mixloop {
 
 namespace {
 
@@ -35,7 +27,7 @@ Program make_program(const Graph& graph, std::span<const NodeId> outputs) {
   for (NodeId id = 0; id < graph.size(); ++id) {
     if (!is_needed[id]) continue;
     ExpressionNode node = graph[id];
-    if (node.op != Op::constant && node.op != Op::input) {
+    if (!is_leaf(node.op)) {
       node.a = now[node.a];
       if (is_binary(node.op)) node.b = now[node.b];
     }
@@ -52,34 +44,8 @@ OperationCount Program::operations(Stage stage) const {
   const std::vector<NodeId> partner = partners();
   for (NodeId id = 0; id < nodes.size(); ++id) {
     if (stages[id] != stage) continue;
-    switch (nodes[id].op) {
-      case Op::constant:
-      case Op::input:
-        break;
-      case Op::neg:
-      case Op::add:
-      case Op::sub:
-        ++count.add;
-        break;
-      case Op::mul:
-        ++count.mul;
-        break;
-      case Op::div:
-        ++count.div;
-        break;
-      case Op::sqrt:
-        ++count.sqrt;
-        break;
-      case Op::sin:
-      case Op::cos:
-        count.sincos += partner[id] > id;
-        break;
-      case Op::exp:
-      case Op::log:
-      case Op::atan2:
-        ++count.other;
-        break;
-    }
+    const auto counter = operation(nodes[id].op).count;
+    if (counter != nullptr && partner[id] > id) ++(count.*counter);  // a pair with its first
   }
   return count;
 }

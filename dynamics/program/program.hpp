@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "dynamics/symbolic/graph.hpp"
+#include "dynamics/symbolic/operation_count.hpp"
 
 namespace mixloop {
-
-/// Operations of a straight-line piece. A sine and a cosine of one angle count as one pair; a change of
-/// sign counts as an addition.
-struct OperationCount {
-  std::size_t add = 0, mul = 0, div = 0, sqrt = 0, sincos = 0, other = 0;
-
-  /// Everything but the sine/cosine pairs.
-  std::size_t flops() const { return add + mul + div + sqrt + other; }
-  /// `85 add + 64 mul + 1 div + 3 sincos`.
-  std::string text() const;
-};
 
 /// A straight-line program: the operations that some outputs need, operands first, and no others.
 ///

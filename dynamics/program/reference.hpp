@@ -10,6 +10,6 @@
 namespace mixloop {
 
 /// The procedure itself as a routine, without a program: what programs are held against.
-std::unique_ptr<Routine> reference_routine(std::shared_ptr<const Scene> scene, Purpose purpose);
+std::unique_ptr<const Routine> reference_routine(std::shared_ptr<const Scene> scene, Purpose purpose);
 
 }  // namespace mixloop

@@ -1,33 +1,71 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <any>
 #include <span>
+#include <vector>
+
+#include "dynamics/status.hpp"
 
 namespace mixloop {
 
-/// The inputs of one evaluation; `input` holds what else the purpose takes (tau, psidd or a).
+/// The inputs of one evaluation; `input` holds what else the purpose takes (tau, psidd or a). What a purpose
+/// doesn't take may be empty.
 struct Arguments {
-  const double* psi = nullptr;
-  const double* psid = nullptr;
-  const double* input = nullptr;
+  std::span<const double> psi, psid, input;
   double t = 0.0;
 };
 
-/// A program ready to run, interpreted or compiled. Holds the memory that an evaluation needs, so a
-/// routine belongs to one thread.
+/// What one user of a routine keeps between evaluations.
+struct Memory {
+  std::vector<double> numbers;  ///< of a program: what its set-up left, and an interpreter's slots
+  std::any procedure;           ///< of the reference
+};
+
+/// A program ready to run, interpreted or compiled, or the procedure itself. Constant: threads share it, each
+/// with a Memory of its own.
 class Routine {
  public:
   virtual ~Routine() = default;
 
+  virtual Memory make_memory() const = 0;
   /// Runs the set-up part: once before the first evaluation, and again when a parameter changes.
-  virtual void set_up(std::span<const double> parameters) noexcept = 0;
+  virtual void set_up(std::span<const double> parameters, Memory& memory) const noexcept = 0;
   /// Writes the outputs. No allocation, lock or exception.
-  virtual void run(const double* psi, const double* psid, const double* input, double t,
-                   double* outputs) noexcept = 0;
-
-  void evaluate(const Arguments& in, double* outputs) noexcept {
-    run(in.psi, in.psid, in.input, in.t, outputs);
+  void run(const Arguments& at, Memory& memory, double* outputs) const noexcept {
+    if (code_ != nullptr)
+      code_(at.psi.data(), at.psid.data(), at.input.data(), at.t, memory.numbers.data(), outputs);
+    else
+      work_out(at, memory, outputs);
   }
+
+ protected:
+  /// An emitted evaluation (source.hpp).
+  using Code = void (*)(const double* psi, const double* psid, const double* input, double t, const double* k,
+                        double* outputs);
+  Code code_ = nullptr;  ///< serves where there is one
+
+ private:
+  virtual void work_out(const Arguments&, Memory&, double*) const noexcept {}
+};
+
+/// A routine with a memory: what one thread evaluates. The routine must live on.
+class Evaluator {
+ public:
+  Evaluator() = default;
+  explicit Evaluator(const Routine& routine) : routine_(&routine), memory_(routine.make_memory()) {}
+
+  explicit operator bool() const { return routine_ != nullptr; }
+  void set_up(std::span<const double> parameters) noexcept { routine_->set_up(parameters, memory_); }
+  /// `outputs` is as long as what the routine gives.
+  Status evaluate(const Arguments& at, std::span<double> outputs) noexcept {
+    routine_->run(at, memory_, outputs.data());
+    return status_of(outputs);
+  }
+
+ private:
+  const Routine* routine_ = nullptr;
+  Memory memory_;
 };
 
 }  // namespace mixloop

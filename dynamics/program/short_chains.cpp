@@ -4,31 +4,10 @@
 #include <algorithm>
 #include <queue>
 
-#include "dynamics/symbolic/expression.hpp"
+#include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
 namespace {
-
-// Cycles until a result is known, about; those of today's processors differ little.
-int latency(Op op) {
-  switch (op) {
-    case Op::constant:
-    case Op::input:
-      return 0;
-    case Op::neg:
-      return 1;
-    case Op::add:
-    case Op::sub:
-    case Op::mul:
-      return 4;
-    case Op::div:
-      return 14;
-    case Op::sqrt:
-      return 18;
-    default:
-      return 70;
-  }
-}
 
 bool is_sum(Op op) { return op == Op::add || op == Op::sub; }
 
@@ -68,7 +47,7 @@ class Rebuilder {
     for (NodeId output : program_.outputs) uses[output] += 2;
     for (NodeId id = 0; id < program_.nodes.size(); ++id) {
       const ExpressionNode& n = program_.nodes[id];
-      if (n.op == Op::constant || n.op == Op::input) continue;
+      if (is_leaf(n.op)) continue;
       for (NodeId x : operands(n)) {
         ++uses[x];
         const Op below = program_.nodes[x].op;
@@ -91,17 +70,17 @@ class Rebuilder {
     if (n.op == Op::input) return {Expression::input(static_cast<Block>(n.a), n.b), 0, false, id};
     if (is_sum(n.op) || n.op == Op::mul) return together(id);
     const Value& a = values_[n.a];
-    const int known = runs ? a.known + latency(n.op) : 0;
+    const int known = runs ? a.known + operation(n.op).latency : 0;
     if (!is_binary(n.op)) return {Expression::unary(n.op, a.is), known, false, id};
     const Value& b = values_[n.b];
-    return {Expression::binary(n.op, a.is, b.is), runs ? std::max(a.known, b.known) + latency(n.op) : 0,
-            false, id};
+    return {Expression::binary(n.op, a.is, b.is),
+            runs ? std::max(a.known, b.known) + operation(n.op).latency : 0, false, id};
   }
 
   // A whole sum or product, the two that are known first taken together until one is left.
   Value together(NodeId root) {
     Waiting waiting;
-    gather(root, false, waiting);
+    gather(root, waiting);
     const bool sum = is_sum(program_.nodes[root].op), runs = program_.stages[root] == Program::Stage::run;
     while (waiting.size() > 1) {
       Value x = waiting.top();
@@ -110,8 +89,9 @@ class Rebuilder {
       waiting.pop();
       if (x.opposite && !y.opposite) std::swap(x, y);
       const Op op = !sum ? Op::mul : x.opposite == y.opposite ? Op::add : Op::sub;
-      waiting.push({Expression::binary(op, x.is, y.is), runs ? std::max(x.known, y.known) + latency(op) : 0,
-                    x.opposite, std::max(x.order, y.order)});
+      waiting.push({Expression::binary(op, x.is, y.is),
+                    runs ? std::max(x.known, y.known) + operation(op).latency : 0, x.opposite,
+                    std::max(x.order, y.order)});
     }
     Value whole = waiting.top();
     if (whole.opposite) whole.is = -whole.is;
@@ -119,18 +99,21 @@ class Rebuilder {
     return whole;
   }
 
-  void gather(NodeId id, bool opposite, Waiting& waiting) const {
-    const ExpressionNode& n = program_.nodes[id];
-    const std::vector<NodeId> parts = operands(n);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const bool turned = opposite != (n.op == Op::sub && i == 1);
-      if (inner_[parts[i]]) {
-        gather(parts[i], turned, waiting);
+  // The parts of a whole sum or product, from left to right.
+  void gather(NodeId root, Waiting& waiting) const {
+    std::vector<std::pair<NodeId, bool>> whole{{root, false}};
+    while (!whole.empty()) {
+      const auto [id, opposite] = whole.back();
+      whole.pop_back();
+      if (id == root || inner_[id]) {
+        const ExpressionNode& n = program_.nodes[id];
+        whole.emplace_back(n.b, opposite != (n.op == Op::sub));
+        whole.emplace_back(n.a, opposite);
         continue;
       }
-      Value part = values_[parts[i]];
-      part.opposite = turned;
-      part.order = parts[i];
+      Value part = values_[id];
+      part.opposite = opposite;
+      part.order = id;
       waiting.push(part);
     }
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "dynamics/program/statements.hpp"
+#include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
 
@@ -16,6 +17,12 @@ extern const char* const kSincosLanesText;  // generated from sincos_lanes.hpp
 namespace {
 
 using Stage = Program::Stage;
+
+// As emitted functions call it.
+const char* name_of(Block block) {
+  constexpr const char* kNames[kBlocks] = {"psi", "psid", "input", "t", "parameters"};
+  return kNames[static_cast<std::size_t>(block)];
+}
 
 std::string number(double x) {
   if (std::isnan(x)) return "NAN";
@@ -137,8 +144,7 @@ class Writer {
         style_.prefix, lanes);
     std::string arguments;
     for (Block block : {Block::psi, Block::psid, Block::input, Block::time}) {
-      constexpr const char* kNames[] = {"psi", "psid", "input", "t"};
-      const char* name = kNames[static_cast<std::size_t>(block)];
+      const char* name = name_of(block);
       std::size_t used = 0;
       for (const ExpressionNode& n : program_.nodes)
         if (n.op == Op::input && static_cast<Block>(n.a) == block)
@@ -174,34 +180,18 @@ class Writer {
   }
 
   static std::string input(const ExpressionNode& n) {
-    constexpr const char* kNames[] = {"psi", "psid", "input", "t", "parameters"};
-    return static_cast<Block>(n.a) == Block::time ? "t" : fmt::format("{}[{}]", kNames[n.a], n.b);
+    const Block block = static_cast<Block>(n.a);
+    return block == Block::time ? name_of(block) : fmt::format("{}[{}]", name_of(block), n.b);
   }
 
   std::string right_side(const ExpressionNode& n) const {
-    const std::string& a = name_[n.a];
-    switch (n.op) {
-      case Op::neg:
-        return "-" + a;
-      case Op::add:
-        return a + " + " + name_[n.b];
-      case Op::sub:
-        return a + " - " + name_[n.b];
-      case Op::mul:
-        return a + " * " + name_[n.b];
-      case Op::div:
-        return a + " / " + name_[n.b];
-      case Op::sqrt:
-        return fmt::format("mixloop_sqrt({})", a);
-      case Op::exp:
-        return fmt::format("mixloop_exp({})", a);
-      case Op::log:
-        return fmt::format("mixloop_log({})", a);
-      case Op::atan2:
-        return fmt::format("mixloop_atan2({}, {})", lifted(n.a), lifted(n.b));
-      default:
-        return a;
-    }
+    const Operation& row = operation(n.op);
+    const bool is_function = row.text.size() > 1;
+    if (!is_function && row.arity == 1) return fmt::format("{}{}", row.text, name_[n.a]);
+    if (!is_function) return fmt::format("{} {} {}", name_[n.a], row.text, name_[n.b]);
+    std::string arguments = lifted(n.a);
+    if (row.arity == 2) arguments += ", " + lifted(n.b);
+    return fmt::format("{}({})", row.text, arguments);
   }
 
   std::string lifted(NodeId id) const { return in_run_ ? as_real(id) : name_[id]; }

@@ -21,7 +21,7 @@ std::vector<Statement> Statements::of(Stage stage) const {
   std::vector<Statement> steps;
   std::vector<bool> taken(program_.nodes.size(), false);
   const auto take = [&](NodeId id) {
-    if (taken[id] || is_leaf(id) || program_.stages[id] != stage) return;
+    if (taken[id] || is_leaf(program_.nodes[id].op) || program_.stages[id] != stage) return;
     taken[id] = true;
     if (!is_trigonometric(program_.nodes[id].op)) steps.push_back({id, {}});  // those with their batch
   };
@@ -47,10 +47,6 @@ std::vector<NodeId> Statements::gives(const Statement& step) const {
   return pairs;
 }
 
-bool Statements::is_leaf(NodeId id) const {
-  return program_.nodes[id].op == Op::constant || program_.nodes[id].op == Op::input;
-}
-
 // Angles whose sines and cosines can be had together: none of a batch's angles needs another's sine.
 std::vector<std::vector<NodeId>> Statements::angle_batches(Stage stage) const {
   constexpr std::size_t kTogether = 4;
@@ -58,7 +54,7 @@ std::vector<std::vector<NodeId>> Statements::angle_batches(Stage stage) const {
   std::vector<std::vector<NodeId>> levels;
   for (NodeId id = 0; id < program_.nodes.size(); ++id) {
     const ExpressionNode& n = program_.nodes[id];
-    if (is_leaf(id) || program_.stages[id] != stage) continue;
+    if (is_leaf(program_.nodes[id].op) || program_.stages[id] != stage) continue;
     depth[id] = std::max(depth[n.a], is_binary(n.op) ? depth[n.b] : 0) + is_trigonometric(n.op);
     if (!is_trigonometric(n.op)) continue;
     levels.resize(std::max(levels.size(), static_cast<std::size_t>(depth[id])));
@@ -82,7 +78,7 @@ std::vector<NodeId> Statements::with_operands(NodeId root, Stage stage,
   while (!waiting.empty()) {
     const NodeId id = waiting.back();
     waiting.pop_back();
-    if (seen[id] || is_leaf(id) || program_.stages[id] != stage || taken[id]) continue;
+    if (seen[id] || is_leaf(program_.nodes[id].op) || program_.stages[id] != stage || taken[id]) continue;
     seen[id] = true;
     wanted.push_back(id);
     waiting.push_back(program_.nodes[id].a);

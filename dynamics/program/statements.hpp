@@ -26,7 +26,6 @@ class Statements {
   const std::vector<NodeId>& pair_of(NodeId angle) const { return pairs_[angle]; }
 
  private:
-  bool is_leaf(NodeId id) const;
   std::vector<std::vector<NodeId>> angle_batches(Program::Stage stage) const;
   std::vector<NodeId> with_operands(NodeId root, Program::Stage stage, const std::vector<bool>& taken) const;
 

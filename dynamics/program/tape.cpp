@@ -7,8 +7,6 @@
 namespace mixloop {
 namespace {
 
-constexpr std::size_t kTapeOps = 13;
-
 // An instruction before it has its place: which nodes it takes and which it gives.
 struct Instruction {
   TapeOp op;
@@ -16,32 +14,7 @@ struct Instruction {
   std::vector<NodeId> takes, gives;
 };
 
-TapeOp plain(Op op) {
-  switch (op) {
-    case Op::neg:
-      return TapeOp::neg;
-    case Op::sqrt:
-      return TapeOp::sqrt;
-    case Op::exp:
-      return TapeOp::exp;
-    case Op::log:
-      return TapeOp::log;
-    case Op::add:
-      return TapeOp::add;
-    case Op::sub:
-      return TapeOp::sub;
-    case Op::mul:
-      return TapeOp::mul;
-    case Op::div:
-      return TapeOp::div;
-    case Op::atan2:
-      return TapeOp::atan2;
-    default:
-      return TapeOp::sincos;
-  }
-}
-
-bool is_leaf(const ExpressionNode& n) { return n.op == Op::constant || n.op == Op::input; }
+TapeOp plain(Op op) { return op == Op::cos ? TapeOp::sincos : static_cast<TapeOp>(op); }
 
 class TapeMaker {
  public:
@@ -65,7 +38,7 @@ class TapeMaker {
   void place_leaves() {
     for (NodeId id = 0; id < program_.nodes.size(); ++id) {
       const ExpressionNode& n = program_.nodes[id];
-      if (!is_leaf(n)) continue;
+      if (!is_leaf(n.op)) continue;
       slot_[id] = fresh_slot(n.value);
       if (n.op == Op::constant) continue;
       const Tape::Load load{static_cast<Block>(n.a), n.b, slot_[id]};
@@ -78,7 +51,7 @@ class TapeMaker {
     std::vector<std::uint32_t> count(program_.nodes.size(), 0);
     for (NodeId output : program_.outputs) count[output] += 2;  // its slot is needed
     for (const ExpressionNode& n : program_.nodes) {
-      if (is_leaf(n)) continue;
+      if (is_leaf(n.op)) continue;
       ++count[n.a];
       if (is_binary(n.op)) ++count[n.b];
     }
@@ -96,7 +69,7 @@ class TapeMaker {
     std::vector<bool> merged(program_.nodes.size(), false);
     for (NodeId id = static_cast<NodeId>(program_.nodes.size()); id-- > 0;) {
       const ExpressionNode& n = program_.nodes[id];
-      if (is_leaf(n) || merged[id]) continue;
+      if (is_leaf(n.op) || merged[id]) continue;
       Instruction made{plain(n.op), program_.stages[id], {n.a}, {id}};
       if (is_binary(n.op)) made.takes.push_back(n.b);
       if (made.op == TapeOp::sincos) {
@@ -117,7 +90,7 @@ class TapeMaker {
     if (!left && !can_merge(n.b, id, use)) return;
     const NodeId product = left ? n.a : n.b;
     merged[product] = true;
-    made.op = n.op == Op::add ? TapeOp::mul_add : left ? TapeOp::mul_sub : TapeOp::sub_mul;
+    made.op = n.op == Op::add ? TapeOp::times_plus : left ? TapeOp::times_minus : TapeOp::minus_times;
     made.takes = {program_.nodes[product].a, program_.nodes[product].b, left ? n.b : n.a};
   }
 

@@ -9,23 +9,15 @@
 
 namespace mixloop {
 
-/// What one instruction of the interpreter computes: the graph's operations, with a sine and its cosine as
-/// one, and a product that only one sum uses as part of that (rounded twice, as before).
+/// What one instruction of the interpreter computes: the graph's operations by their Op, with a sine and its
+/// cosine as one, and a product that only one sum uses as part of that, rounded twice all the same.
 enum class TapeOp : std::uint8_t {
-  neg,
-  sqrt,
-  sincos,
-  exp,
-  log,
-  add,
-  sub,
-  mul,
-  div,
-  atan2,
-  mul_add,  ///< a b + c
-  mul_sub,  ///< a b - c
-  sub_mul,  ///< c - a b
+  sincos = static_cast<std::uint8_t>(Op::sin),
+  times_plus = kOps,  ///< a b + c
+  times_minus,        ///< a b - c
+  minus_times,        ///< c - a b
 };
+constexpr std::size_t kTapeOps = kOps + 3;
 
 /// A program laid out for interpretation. Every value has a slot; instructions of one kind that can follow
 /// each other stand together in a run, so that the interpreter chooses once a run and not once an
@@ -52,9 +44,5 @@ struct Tape {
 };
 
 Tape make_tape(const Program& program);
-
-constexpr std::uint32_t operand_count(TapeOp op) {
-  return op >= TapeOp::mul_add ? 3 : op >= TapeOp::add ? 2 : 1;
-}
 
 }  // namespace mixloop

@@ -3,6 +3,7 @@
 
 #include "dynamics/program/short_chains.hpp"
 #include "dynamics/symbolic/derivative.hpp"
+#include "dynamics/symbolic/operations.hpp"
 #include "dynamics/symbolic/tracer.hpp"
 
 namespace mixloop {
@@ -30,7 +31,7 @@ Nodes linearisation(Graph& graph, const Scene& scene, Tracer& tracer) {
   Nodes residual, stand_ins, psidd;
   append(residual, tracer.inverse_dynamics(held));
   append(stand_ins, held);
-  append(psidd, tracer.forward_dynamics(input_vector(0, n)));
+  append(psidd, tracer.forward_dynamics(motor_inputs(scene)));
   Nodes outputs;
   for (const ExpressionVector* x : {&in.psi, &in.psid}) {
     ExpressionMatrix B(n, n);
@@ -41,19 +42,19 @@ Nodes linearisation(Graph& graph, const Scene& scene, Tracer& tracer) {
     }
     append(outputs, tracer.mass_inverse_times(B));
   }
-  append(outputs, tracer.mass_inverse_times(ExpressionMatrix::Identity(n, n)));
+  append(outputs, tracer.mass_inverse_times(ExpressionMatrix::Identity(n, scene.n_u())));
   return outputs;
 }
 
 Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracer& tracer) {
-  const int n = scene->n();
+  const int n = scene->n(), n_u = scene->n_u();
   Nodes nodes;
   switch (purpose) {
     case Purpose::forward_dynamics:
-      append(nodes, tracer.forward_dynamics(input_vector(0, n)));
+      append(nodes, tracer.forward_dynamics(motor_inputs(*scene)));
       break;
     case Purpose::mass_times:
-      append(nodes, tracer.mass_times(input_vector(0, n)));
+      append(nodes, tracer.mass_times(motor_inputs(*scene)).head(n_u));
       break;
     case Purpose::mass_matrix:
       append(nodes, tracer.mass_matrix());
@@ -78,15 +79,11 @@ Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpos
       break;
     }
     case Purpose::dynamics_and_mass_times:
-      append(nodes, tracer.forward_dynamics(input_vector(0, n)));
-      append(nodes, tracer.mass_times(input_vector(n, n)));
+      append(nodes, tracer.forward_dynamics(motor_inputs(*scene)));
+      append(nodes, tracer.mass_times(motor_inputs(*scene, n_u)).head(n_u));
       break;
   }
   return nodes;
-}
-
-bool needs_forward_dynamics(Purpose purpose) {
-  return purpose == Purpose::forward_dynamics || purpose == Purpose::dynamics_and_mass_times;
 }
 
 std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, Tracing tracing) {
@@ -107,15 +104,19 @@ std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, T
 Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracing tracing) {
   Graph graph;
   const Recording recording(graph);
-  if (tracing == Tracing::articulated && !needs_forward_dynamics(purpose)) return {};  // as the recursive one
+  if (tracing == Tracing::articulated && !signature(purpose).gives_psidd) return {};  // as the recursive one
   const auto tracer = make_tracer(scene, tracing);
   if (!tracer) return {};
   return with_short_chains(make_program(graph, outputs_of(graph, scene, purpose, *tracer)));
 }
 
 double estimated_time(const OperationCount& count) {
-  return static_cast<double>(count.add + count.mul) + 5.0 * static_cast<double>(count.div + count.sqrt) +
-         18.0 * static_cast<double>(count.sincos) + 25.0 * static_cast<double>(count.other);
+  const auto times = [](std::size_t number, Op op) {
+    return static_cast<double>(number) * operation(op).cost;
+  };
+  return times(count.add, Op::add) + times(count.mul, Op::mul) + times(count.div, Op::div) +
+         times(count.sqrt, Op::sqrt) + times(count.sincos, Op::sin) + times(count.sincos, Op::cos) +
+         times(count.other, Op::atan2);
 }
 
 namespace {

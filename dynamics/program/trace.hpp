@@ -29,8 +29,7 @@ Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracin
 /// every machine: the choice goes by an estimate (see estimated_time), never by a clock.
 TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose);
 
-/// Time of an evaluation's machine code in units of an addition, as measured on several programs: sums and
-/// products 1, a division or root 5, a sine/cosine pair 18.
+/// Time of an evaluation's machine code in units of an addition, by the costs of operations.hpp.
 double estimated_time(const OperationCount& count);
 
 }  // namespace mixloop

@@ -52,6 +52,7 @@ std::string canonical_text(const Scene& scene) {
     text += fmt::format("coordinate load {}\n", load.coordinate);
     for (const auto* formula : {&load.stiffness, &load.rest, &load.damping}) add(text, *formula);
   }
+  if (scene.friction_factor) text += "friction factor\n";
   text += "gravity\n";
   add(text, scene.gravity);
   text +=

@@ -14,7 +14,13 @@ std::span<const Scene::Independent> Scene::motors() const {
 std::vector<double> Scene::default_parameters() const {
   std::vector<double> values;
   for (const auto& parameter : parameters) values.push_back(parameter.value);
+  if (friction_factor) values.push_back(1);
   return values;
+}
+
+bool Scene::has_friction() const {
+  return std::any_of(coordinate_loads.begin(), coordinate_loads.end(),
+                     [](const CoordinateLoad& load) { return !load.damping.is_zero(); });
 }
 
 }  // namespace mixloop

@@ -112,6 +112,8 @@ struct Scene {
   std::vector<Solid> solids;
   std::vector<std::string> warnings;  ///< `file:line:column: what`, e.g. a triangle inequality
   std::string canonical;              ///< a text equal for equal mechanisms, to hash
+  /// Of none read from a file: viscous friction is times a number, the last of the parameters' values.
+  bool friction_factor = false;
 
   /// Whether anything but inertia, gravity and the motors acts.
   bool is_loaded() const { return !loads.empty() || !coordinate_loads.empty(); }
@@ -119,7 +121,10 @@ struct Scene {
   /// The independent coordinates that motors drive: motor i drives psi_i, so a force tau_i acts along it.
   int n_u() const { return static_cast<int>(motors().size()); }
   std::span<const Independent> motors() const;
+  /// Whether there is viscous friction.
+  bool has_friction() const;
   int m() const { return static_cast<int>(coordinates.size()); }
+  /// Of the parameters, and 1 of the friction's factor where there is one.
   std::vector<double> default_parameters() const;
 };
 

@@ -9,8 +9,8 @@
 namespace mixloop {
 namespace {
 
-constexpr std::size_t kMostTerms = 24;   // longer sums are taken as one angle
-constexpr std::size_t kMostAngles = 96;  // pairs are searched among so many angles
+constexpr std::size_t kMostTerms = 24;     // longer sums are taken as one angle
+constexpr std::size_t kMostSearched = 96;  // pairs are searched among so many angles
 
 // Coefficients of one angle that come by two routes (q3 + (q2 - q3), q2) differ by roundings.
 // A relative 1e-15 of a coefficient is a relative 1e-15 of its share of the angle: its own rounding.
@@ -38,24 +38,43 @@ AffineSum combined(const AffineSum& x, double p, const AffineSum& y, double q) {
 
 }  // namespace
 
+// A sum may be as long as a scene makes it: its parts first, without recursion.
 const AffineSum& Graph::affine(NodeId id) {
   if (auto known = affine_.find(id); known != affine_.end()) return known->second;
-  const ExpressionNode n = nodes_[id];
-  AffineSum sum{0.0, {{id, 1.0}}};
-  if (n.op == Op::constant) {
-    sum = {n.value, {}};
-  } else if (n.op == Op::neg) {
-    sum = combined(affine(n.a), -1.0, {}, 0.0);
-  } else if (n.op == Op::add || n.op == Op::sub) {
-    const AffineSum x = affine(n.a);
-    sum = combined(x, 1.0, affine(n.b), n.op == Op::add ? 1.0 : -1.0);
-  } else if (n.op == Op::mul && number(n.a)) {
-    sum = combined(affine(n.b), *number(n.a), {}, 0.0);
-  } else if (n.op == Op::mul && number(n.b)) {
-    sum = combined(affine(n.a), *number(n.b), {}, 0.0);
+  for (std::vector<NodeId> waiting{id}; !waiting.empty();) {
+    const NodeId at = waiting.back();
+    const std::size_t before = waiting.size();
+    if (const ExpressionNode& n = nodes_[at]; is_affine(n)) {
+      if (!affine_.contains(n.a)) waiting.push_back(n.a);
+      if (is_binary(n.op) && !affine_.contains(n.b)) waiting.push_back(n.b);
+    }
+    if (waiting.size() > before) continue;
+    waiting.pop_back();
+    affine_.try_emplace(at, affine_of_known_parts(at));
   }
+  return affine_.at(id);
+}
+
+bool Graph::is_affine(const ExpressionNode& n) const {
+  return n.op == Op::neg || n.op == Op::add || n.op == Op::sub ||
+         (n.op == Op::mul && (number(n.a) || number(n.b)));
+}
+
+AffineSum Graph::affine_of_known_parts(NodeId id) const {
+  const ExpressionNode& n = nodes_[id];
+  if (n.op == Op::constant) return {n.value, {}};
+  AffineSum sum{0.0, {{id, 1.0}}};
+  if (!is_affine(n)) return sum;
+  const AffineSum& x = affine_.at(n.a);
+  const AffineSum& y = n.op == Op::neg ? x : affine_.at(n.b);
+  if (n.op == Op::neg)
+    sum = combined(x, -1.0, {}, 0.0);
+  else if (n.op == Op::mul)
+    sum = number(n.a) ? combined(y, *number(n.a), {}, 0.0) : combined(x, *number(n.b), {}, 0.0);
+  else
+    sum = combined(x, 1.0, y, n.op == Op::add ? 1.0 : -1.0);
   if (sum.terms.size() > kMostTerms) sum = {0.0, {{id, 1.0}}};
-  return affine_.emplace(id, std::move(sum)).first->second;
+  return sum;
 }
 
 // The pair of u + by from the pair of u.
@@ -79,7 +98,7 @@ std::optional<std::pair<NodeId, NodeId>> Graph::from_known(const AffineSum& sum)
       return rotated(s, known.cosine, sum.constant - sign * known.sum.constant);
     }
   }
-  if (angles_.size() > kMostAngles) return std::nullopt;
+  if (angles_.size() > kMostSearched) return std::nullopt;
   for (std::size_t i = 0; i < angles_.size(); ++i) {
     for (std::size_t j = i; j < angles_.size(); ++j) {
       for (auto [p, q] : {std::pair{1.0, 1.0}, {1.0, -1.0}, {-1.0, 1.0}, {-1.0, -1.0}}) {

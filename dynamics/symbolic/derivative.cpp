@@ -1,57 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/symbolic/derivative.hpp"
 
-#include "dynamics/symbolic/expression.hpp"
+#include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
 namespace {
 
-// d op(a, b) / da and / db.
-struct Partials {
-  Expression a, b;
-};
-
-Partials partials_of_unary(Op op, const Expression& x, const Expression& y) {
-  switch (op) {
-    case Op::neg:
-      return {-1.0, 0.0};
-    case Op::sqrt:
-      return {0.5 / y, 0.0};
-    case Op::sin:
-      return {cos(x), 0.0};
-    case Op::cos:
-      return {-sin(x), 0.0};
-    case Op::exp:
-      return {y, 0.0};
-    case Op::log:
-      return {1.0 / x, 0.0};
-    default:
-      return {0.0, 0.0};
-  }
-}
-
 Partials partials(const Graph& graph, NodeId id) {
   const ExpressionNode n = graph[id];
-  const Expression a = Expression::of(n.a), y = Expression::of(id);
-  if (!is_binary(n.op)) return partials_of_unary(n.op, a, y);
-  const Expression b = Expression::of(n.b);
-  switch (n.op) {
-    case Op::add:
-      return {1.0, 1.0};
-    case Op::sub:
-      return {1.0, -1.0};
-    case Op::mul:
-      return {b, a};
-    case Op::div:
-      return {1.0 / b, -y / b};
-    case Op::atan2:
-      return {b / (a * a + b * b), -a / (a * a + b * b)};
-    default:
-      return {0.0, 0.0};
-  }
+  return operation(n.op).partials(Expression::of(n.a), Expression::of(n.b), Expression::of(id));
 }
-
-bool is_leaf(const ExpressionNode& n) { return n.op == Op::constant || n.op == Op::input; }
 
 }  // namespace
 
@@ -68,7 +26,7 @@ std::vector<NodeId> tangents(Graph& graph, std::span<const NodeId> outputs, std:
   auto moves = [&](NodeId id) { return !dot[id].is_number() || dot[id].number() != 0.0; };
   for (NodeId id = 0; id < is_needed.size(); ++id) {
     const ExpressionNode n = graph[id];
-    if (!is_needed[id] || is_input[id] || is_leaf(n)) continue;
+    if (!is_needed[id] || is_input[id] || is_leaf(n.op)) continue;
     const bool by_a = moves(n.a), by_b = is_binary(n.op) && moves(n.b);
     if (!by_a && !by_b) continue;
     const Partials d = partials(graph, id);
@@ -88,13 +46,13 @@ std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId
   for (NodeId input : inputs) moves[input] = is_input[input] = true;
   for (NodeId id = 0; id < is_needed.size(); ++id) {
     const ExpressionNode n = graph[id];
-    if (!is_leaf(n) && (moves[n.a] || (is_binary(n.op) && moves[n.b]))) moves[id] = true;
+    if (!is_leaf(n.op) && (moves[n.a] || (is_binary(n.op) && moves[n.b]))) moves[id] = true;
   }
   std::vector<Expression> bar(is_needed.size());
   bar[output] = 1.0;
   for (NodeId id = output + 1; id-- > 0;) {
     const ExpressionNode n = graph[id];
-    if (!is_needed[id] || !moves[id] || is_input[id] || is_leaf(n)) continue;
+    if (!is_needed[id] || !moves[id] || is_input[id] || is_leaf(n.op)) continue;
     if (bar[id].is_number() && bar[id].number() == 0.0) continue;
     const Partials d = partials(graph, id);
     if (moves[n.a]) bar[n.a] += bar[id] * d.a;
@@ -113,7 +71,7 @@ std::vector<NodeId> substituted(Graph& graph, std::span<const NodeId> outputs, s
   for (std::size_t i = 0; i < inputs.size(); ++i) now[inputs[i]] = replacements[i];
   for (NodeId id = 0; id < is_needed.size(); ++id) {
     const ExpressionNode n = graph[id];
-    if (!is_needed[id] || is_leaf(n) || now[id] != id) continue;
+    if (!is_needed[id] || is_leaf(n.op) || now[id] != id) continue;
     if (!is_binary(n.op)) {
       if (now[n.a] != n.a) now[id] = graph.unary(n.op, now[n.a]);
     } else if (now[n.a] != n.a || now[n.b] != n.b) {

@@ -7,15 +7,18 @@
 #include <numbers>
 #include <set>
 
+#include "dynamics/symbolic/operations.hpp"
+
 namespace mixloop {
 namespace {
 
 using Angle = EvaluationAngles::Angle;
 using Complex = std::complex<long double>;
 
-constexpr int kHighest = 2;         // multiple of one evaluation angle
-constexpr int kHighestDegree = 4;   // sum of multiples
-constexpr double kPairCost = 20.0;  // of a sine and cosine, beside the product that a degree takes
+constexpr int kHighest = 2;                                // multiple of one evaluation angle
+constexpr int kHighestDegree = 4;                          // sum of multiples
+constexpr double kTurnCost = 4 * operation(Op::mul).cost;  // that a degree takes
+constexpr double kPairCost = operation(Op::sin).cost + operation(Op::cos).cost;
 
 Angle canonical(Angle angle) {
   const auto first = std::find_if(angle.begin(), angle.end(), [](int a) { return a != 0; });
@@ -91,7 +94,7 @@ void consider(const std::vector<Angle>& angles, const std::set<Angle>& harmonics
   for (const Angle& harmonic : harmonics) {
     const auto found = reached.find(harmonic);
     if (found == reached.end()) return;
-    cost += 4.0 * (found->second.first - 1);
+    cost += kTurnCost * (found->second.first - 1);
     made.combinations[harmonic] = found->second.second;
   }
   if (cost < best.cost) best = {cost, std::move(made)};
@@ -108,10 +111,10 @@ void choose(const std::vector<Angle>& candidates, std::size_t from, std::size_t 
 }
 
 std::size_t rank_of(const std::set<Angle>& harmonics) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(harmonics.size()), kMostAngles);
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(harmonics.size()), kMostBaseAngles);
   Eigen::Index i = 0;
   for (const Angle& angle : harmonics) {
-    for (Eigen::Index j = 0; j < kMostAngles; ++j) rows(i, j) = angle[static_cast<std::size_t>(j)];
+    for (Eigen::Index j = 0; j < kMostBaseAngles; ++j) rows(i, j) = angle[static_cast<std::size_t>(j)];
     ++i;
   }
   return static_cast<std::size_t>(Eigen::FullPivLU<Eigen::MatrixXd>(rows).rank());

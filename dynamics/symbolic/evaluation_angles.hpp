@@ -11,7 +11,7 @@ namespace mixloop {
 /// The angles whose sine and cosine an evaluation computes, and how every harmonic is a small whole
 /// combination of them.
 struct EvaluationAngles {
-  using Angle = std::array<std::int16_t, kMostAngles>;
+  using Angle = std::array<std::int16_t, kMostBaseAngles>;
 
   std::vector<Angle> angles;
   std::vector<std::vector<long double>> phases;  ///< of each angle: constants worth adding to it; 0 first

@@ -5,38 +5,11 @@
 #include <bit>
 #include <cmath>
 
+#include "dynamics/symbolic/operations.hpp"
+
 namespace mixloop {
 
-double apply(Op op, double a, double b) {
-  switch (op) {
-    case Op::constant:
-    case Op::input:
-      return a;
-    case Op::neg:
-      return -a;
-    case Op::sqrt:
-      return std::sqrt(a);
-    case Op::sin:
-      return std::sin(a);
-    case Op::cos:
-      return std::cos(a);
-    case Op::exp:
-      return std::exp(a);
-    case Op::log:
-      return std::log(a);
-    case Op::add:
-      return a + b;
-    case Op::sub:
-      return a - b;
-    case Op::mul:
-      return a * b;
-    case Op::div:
-      return a / b;
-    case Op::atan2:
-      return std::atan2(a, b);
-  }
-  return a;
-}
+double apply(Op op, double a, double b) { return operation(op).value(a, b); }
 
 std::size_t Graph::KeyHash::operator()(const ExpressionNode& n) const {
   std::uint64_t h = static_cast<std::uint64_t>(n.op) * 0x9E3779B97F4A7C15u;
@@ -204,7 +177,7 @@ std::vector<bool> needed(const Graph& graph, std::span<const NodeId> roots) {
   for (NodeId root : roots) is_needed[root] = true;
   for (NodeId id = static_cast<NodeId>(graph.size()); id-- > 0;) {
     const ExpressionNode& n = graph[id];
-    if (!is_needed[id] || n.op == Op::constant || n.op == Op::input) continue;
+    if (!is_needed[id] || is_leaf(n.op)) continue;
     is_needed[n.a] = true;
     if (is_binary(n.op)) is_needed[n.b] = true;
   }

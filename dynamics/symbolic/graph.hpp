@@ -32,6 +32,10 @@ enum class Op : std::uint8_t {
   atan2,
 };
 
+constexpr std::size_t kOps = 13;
+
+/// What else is known of an operation is a row in operations.hpp.
+constexpr bool is_leaf(Op op) { return op <= Op::input; }
 /// True for the operations of two operands.
 constexpr bool is_binary(Op op) { return op >= Op::add; }
 
@@ -109,6 +113,8 @@ class Graph {
   NodeId div(NodeId a, NodeId b);
   NodeId neg(NodeId a);
   std::optional<NodeId> pythagoras(NodeId a, NodeId b);
+  bool is_affine(const ExpressionNode& node) const;
+  AffineSum affine_of_known_parts(NodeId id) const;
   std::pair<NodeId, NodeId> rotated(NodeId sine, NodeId cosine, double by);
   std::optional<std::pair<NodeId, NodeId>> from_known(const AffineSum& sum);
   bool is(NodeId id, Op op) const { return nodes_[id].op == op; }

@@ -3,25 +3,23 @@
 #include <limits>
 
 #include "dynamics/symbolic/harmonic_equations.hpp"
+#include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
 namespace {
 
-// Times of an addition or a product that the outputs take in a run, as estimated_time has it.
+// What the outputs take in a run.
 double cost_of(const Graph& graph, std::span<const NodeId> outputs) {
   const std::vector<bool> is_needed = needed(graph, outputs);
   std::vector<bool> runs(graph.size(), false);
   double cost = 0;
   for (NodeId id = 0; id < graph.size(); ++id) {
     const ExpressionNode& node = graph[id];
-    if (node.op == Op::constant) continue;
-    if (node.op == Op::input) {
+    if (node.op == Op::input)
       runs[id] = static_cast<Block>(node.a) != Block::parameter;
-      continue;
-    }
-    runs[id] = runs[node.a] || (is_binary(node.op) && runs[node.b]);
-    if (!is_needed[id] || !runs[id]) continue;
-    cost += node.op == Op::div || node.op == Op::sqrt ? 5 : node.op == Op::sin || node.op == Op::cos ? 9 : 1;
+    else if (!is_leaf(node.op))
+      runs[id] = runs[node.a] || (is_binary(node.op) && runs[node.b]);
+    if (is_needed[id] && runs[id]) cost += operation(node.op).cost;
   }
   return cost;
 }
@@ -79,11 +77,8 @@ class WritingSearch {
     for (std::size_t i = 0; i < found_->energy.atoms.size(); ++i)
       atoms.push_back(Expression::input(Block::parameter, i));
     const auto tracer = harmonic_equations(scene_, found_, writing, atoms);
-    ExpressionVector tau(scene_.n());
-    for (int i = 0; i < scene_.n(); ++i)
-      tau[i] = Expression::input(Block::input, static_cast<std::size_t>(i));
     std::vector<NodeId> outputs;
-    for (const Expression& x : tracer->forward_dynamics(tau)) outputs.push_back(x.node());
+    for (const Expression& x : tracer->forward_dynamics(motor_inputs(scene_))) outputs.push_back(x.node());
     return cost_of(graph, outputs);
   }
 

@@ -17,7 +17,7 @@ constexpr std::size_t kTermBudget = 48;  // terms of one element of a transform
 struct OutOfBudget {};  // caught in harmonic_energy
 
 using Row = std::vector<long double>;
-using Angle = std::array<std::int16_t, kMostAngles>;
+using Angle = std::array<std::int16_t, kMostBaseAngles>;
 
 // A coordinate as an affine function of psi.
 struct Affine {
@@ -51,7 +51,7 @@ class EnergyMaker {
         n_(scene->n()) {}
 
   std::optional<HarmonicEnergy> make() {
-    if (n_ > kMostAngles - 2 || !find_coordinates() || !choose_base_angles()) return std::nullopt;
+    if (n_ > kMostBaseAngles - 2 || !find_coordinates() || !choose_base_angles()) return std::nullopt;
     made_.space.n = n_;
     transforms();
     mass_matrix();
@@ -93,7 +93,7 @@ class EnergyMaker {
       rows.push_back(row);
     }
     if (!rational_base(rows)) irrational_base(rows);
-    return made_.space.angles.size() <= kMostAngles;
+    return made_.space.angles.size() <= kMostBaseAngles;
   }
 
   bool rational_base(const std::vector<Row>& rows) {

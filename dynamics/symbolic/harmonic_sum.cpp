@@ -29,7 +29,7 @@ HarmonicSum HarmonicSum::power(int variable) {
 
 namespace {
 
-HarmonicKey key_of(const std::array<std::int16_t, kMostAngles>& angle, int sign) {
+HarmonicKey key_of(const std::array<std::int16_t, kMostBaseAngles>& angle, int sign) {
   HarmonicKey key;
   std::transform(angle.begin(), angle.end(), key.angle.begin(),
                  [&](int a) { return static_cast<std::int16_t>(sign * a); });
@@ -39,7 +39,7 @@ HarmonicKey key_of(const std::array<std::int16_t, kMostAngles>& angle, int sign)
 }  // namespace
 
 // cos x = (e^ix + e^-ix) / 2
-HarmonicSum HarmonicSum::cosine(const std::array<std::int16_t, kMostAngles>& angle, long double phase) {
+HarmonicSum HarmonicSum::cosine(const std::array<std::int16_t, kMostBaseAngles>& angle, long double phase) {
   const Complex turn = std::polar(0.5L, phase);
   HarmonicSum sum;
   for (auto [key, value] : {std::pair{key_of(angle, 1), turn}, {key_of(angle, -1), std::conj(turn)}}) {
@@ -49,7 +49,7 @@ HarmonicSum HarmonicSum::cosine(const std::array<std::int16_t, kMostAngles>& ang
   return sum;
 }
 
-HarmonicSum HarmonicSum::sine(const std::array<std::int16_t, kMostAngles>& angle, long double phase) {
+HarmonicSum HarmonicSum::sine(const std::array<std::int16_t, kMostBaseAngles>& angle, long double phase) {
   // sin x = (e^ix - e^-ix) / 2i
   const Complex turn = std::polar(0.5L, phase) * Complex(0, -1);
   HarmonicSum sum;

@@ -9,12 +9,12 @@
 
 namespace mixloop {
 
-constexpr int kMostAngles = 10;  ///< base angles of a harmonic space
-constexpr int kMostPowers = 20;  ///< displacements and parameters
+constexpr int kMostBaseAngles = 10;  ///< base angles of a harmonic space
+constexpr int kMostPowers = 20;      ///< displacements and parameters
 
 /// Which term of a sum: exp(i sum_g angle[g] theta_g) * prod_v x_v^power[v].
 struct HarmonicKey {
-  std::array<std::int16_t, kMostAngles> angle{};
+  std::array<std::int16_t, kMostBaseAngles> angle{};
   std::array<std::int16_t, kMostPowers> power{};
 
   auto operator<=>(const HarmonicKey&) const = default;
@@ -43,8 +43,8 @@ class HarmonicSum {
   explicit HarmonicSum(long double value);
   static HarmonicSum power(int variable);
   /// cos(angle . theta + phase), sin(angle . theta + phase).
-  static HarmonicSum cosine(const std::array<std::int16_t, kMostAngles>& angle, long double phase);
-  static HarmonicSum sine(const std::array<std::int16_t, kMostAngles>& angle, long double phase);
+  static HarmonicSum cosine(const std::array<std::int16_t, kMostBaseAngles>& angle, long double phase);
+  static HarmonicSum sine(const std::array<std::int16_t, kMostBaseAngles>& angle, long double phase);
 
   bool is_zero() const { return terms_.empty(); }
   std::size_t size() const { return terms_.size(); }

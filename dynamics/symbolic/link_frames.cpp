@@ -88,10 +88,13 @@ Wrench LinkFrames::in_parent(std::size_t i, const Wrench& mid) const {
 }
 
 // A vector in inertial axes, in a frame's.
-V3 LinkFrames::in_frame(int frame, const V3& x) const {
-  if (frame == 0) return x;
-  const auto i = static_cast<std::size_t>(frame - 1);
-  return links_[i].alpha.into_x(links_[i].theta.into_z(in_frame(model_.links[i].parent, x)));
+V3 LinkFrames::in_frame(int frame, V3 x) const {
+  std::vector<std::size_t> way;
+  for (; frame > 0; frame = model_.links[way.back()].parent)
+    way.push_back(static_cast<std::size_t>(frame - 1));
+  for (; !way.empty(); way.pop_back())
+    x = links_[way.back()].alpha.into_x(links_[way.back()].theta.into_z(x));
+  return x;
 }
 
 void LinkFrames::subtract_loads(std::vector<Wrench>& wrench) const {

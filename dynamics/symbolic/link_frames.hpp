@@ -104,7 +104,7 @@ class LinkFrames {
   Wrench in_mid(std::size_t i, const Wrench& own) const;
   Wrench in_parent(std::size_t i, const Wrench& mid) const;
   /// A vector in inertial axes, in a frame's.
-  Expression3 in_frame(int frame, const Expression3& x) const;
+  Expression3 in_frame(int frame, Expression3 x) const;
   /// Takes the external loads off the frames' wrenches.
   void subtract_loads(std::vector<Wrench>& wrench) const;
 

@@ -12,8 +12,15 @@ TracedInputs::TracedInputs(const Scene& scene) : psi(scene.n()), psid(scene.n())
     psid[i] = input(Block::psid, i);
   }
   t = input(Block::time, 0);
-  for (std::size_t i = 0; i < scene.parameters.size(); ++i)
-    parameters.push_back(input(Block::parameter, static_cast<int>(i)));
+  const std::size_t count = scene.parameters.size() + (scene.friction_factor ? 1 : 0);
+  for (std::size_t i = 0; i < count; ++i) parameters.push_back(Expression::input(Block::parameter, i));
+}
+
+ExpressionVector motor_inputs(const Scene& scene, int from) {
+  ExpressionVector result = ExpressionVector::Constant(scene.n(), Expression(0.0));
+  for (int i = 0; i < scene.n_u(); ++i)
+    result[i] = Expression::input(Block::input, static_cast<std::size_t>(from + i));
+  return result;
 }
 
 ExpressionVector Tracer::mass_times(const ExpressionVector& a) { return mass_matrix().lazyProduct(a); }

@@ -21,6 +21,10 @@ struct TracedInputs {
   std::vector<Expression> parameters;
 };
 
+/// What the motors' inputs from `from` on are to all independent coordinates, n: nothing on those without
+/// one.
+ExpressionVector motor_inputs(const Scene& scene, int from = 0);
+
 /// A way to write down a scene's equations of motion on the expression scalar. Each is exact; they differ
 /// in how many operations they leave. Used while a Recording lives.
 class Tracer {

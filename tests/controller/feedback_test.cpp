@@ -47,8 +47,9 @@ WideVector torque(Procedure<Wide>& model, const ControllerSettings& settings, co
 TEST_P(FeedbackOf, IsTheDerivativeOfItsTorque) {
   const auto scene = robot();
   Procedure<Wide> procedure(*scene);
-  Dynamics model(scene, scene->default_parameters(), Evaluation::interpreter,
-                 {Purpose::inverse_dynamics, Purpose::linearisation});
+  Equations::Workspace model(
+      equations_of(scene, Evaluation::interpreter, {Purpose::inverse_dynamics, Purpose::linearisation}),
+      scene->default_parameters());
   ControllerSettings settings;
   settings.law = GetParam().law;
   settings.feedforward_at = GetParam().at;

@@ -22,7 +22,8 @@ struct Bench {
   double tau = 0;
 
   CommandMarks command(const ControllerSettings& settings, double t = 0) {
-    Dynamics model(crane(), {}, Evaluation::interpreter, {Purpose::mass_times, Purpose::bias});
+    Equations::Workspace model(
+        equations_of(crane(), Evaluation::interpreter, {Purpose::mass_times, Purpose::bias}), {});
     GuardedController controller(Controller(std::move(model), settings), settings.safety, settings.kv);
     return controller.torque({psi, psid, t}, reference_in(row, 1), {&tau, 1});
   }

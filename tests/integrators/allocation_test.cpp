@@ -18,9 +18,10 @@ TEST_P(Ticks, AllocateNothing) {
   for (const double local_error : {0.0, 1e-12}) {
     if (local_error > 0 && !GetParam().error_control) continue;
     settings.local_error = local_error;
-    Plant plant(Dynamics(scene, scene->default_parameters(), Evaluation::interpreter,
-                         {Purpose::forward_dynamics, Purpose::linearisation}),
-                settings, 1000, std::vector{1.0, 2.0, 3.0});
+    Plant plant(
+        {equations_of(scene, Evaluation::interpreter, {Purpose::forward_dynamics, Purpose::linearisation}),
+         scene->default_parameters()},
+        settings, 1000, std::vector{1.0, 2.0, 3.0});
     const double tau[] = {0.1, 0.2, -0.1};
     const AllocationCounter counter;
     for (int k = 0; k < 5; ++k) {

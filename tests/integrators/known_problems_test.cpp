@@ -2,7 +2,7 @@
 // Mechanisms whose motion two independent derivations agree on, by every method, without a torque.
 #include <gtest/gtest.h>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "integrators/integrator.hpp"
 
@@ -13,8 +13,9 @@ class Mechanism {
  public:
   explicit Mechanism(const char* file)
       : scene_(std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES) / file))),
-        dynamics_(scene_, scene_->default_parameters(), Evaluation::interpreter,
-                  {Purpose::forward_dynamics, Purpose::linearisation, Purpose::end_effector}) {}
+        dynamics_(equations_of(scene_, Evaluation::interpreter,
+                               {Purpose::forward_dynamics, Purpose::linearisation, Purpose::end_effector}),
+                  scene_->default_parameters()) {}
 
   /// (psi, psi') after free motion.
   Vector after(const IntegratorSettings& settings, double duration, double psi, double psid) {
@@ -25,10 +26,12 @@ class Mechanism {
         x, duration,
         [&](int, int, double t, const Vector& at, Vector& dx) {
           dx[0] = at[1];
-          dynamics_.forward_dynamics({at.data(), 1}, {at.data() + 1, 1}, kNoTorque, t, {dx.data() + 1, 1});
+          dynamics_.evaluate(Purpose::forward_dynamics, {{at.data(), 1}, {at.data() + 1, 1}, kNoTorque, t},
+                             {dx.data() + 1, 1});
         },
         [&](double t, const Vector& at, auto& J) {
-          dynamics_.linearisation({at.data(), 1}, {at.data() + 1, 1}, kNoTorque, t, span_of(out));
+          dynamics_.evaluate(Purpose::linearisation, {{at.data(), 1}, {at.data() + 1, 1}, kNoTorque, t},
+                             span_of(out));
           J.by_q(0, 0) = out[0], J.by_v(0, 0) = out[1];
         });
     return x;
@@ -37,14 +40,14 @@ class Mechanism {
   double end_x(const Vector& x) {
     Vector out(12);
     const double rest[] = {0};
-    dynamics_.end_effector({x.data(), 1}, {x.data() + 1, 1}, rest, 0, span_of(out));
+    dynamics_.evaluate(Purpose::end_effector, {{x.data(), 1}, {x.data() + 1, 1}, rest}, span_of(out));
     return out[0];
   }
 
  private:
   static constexpr double kNoTorque[] = {0};
   std::shared_ptr<const Scene> scene_;
-  Dynamics dynamics_;
+  Equations::Workspace dynamics_;
 };
 
 struct Known {

@@ -21,8 +21,9 @@ PlantSettings settings_from(const std::string& text) {
 }
 
 Plant crane_plant(const PlantSettings& settings) {
-  return {Dynamics(crane(), {}, Evaluation::interpreter, {Purpose::forward_dynamics, Purpose::linearisation}),
-          settings, kRate, std::vector{0.0, 0.0}};
+  const auto equations =
+      equations_of(crane(), Evaluation::interpreter, {Purpose::forward_dynamics, Purpose::linearisation});
+  return {{equations, {}}, settings, kRate, std::vector{0.0, 0.0}};
 }
 
 double energy(const Plant& plant) {

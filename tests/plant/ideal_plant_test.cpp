@@ -19,7 +19,7 @@ using oracle::Wide;
 
 /// The procedure as it stands.
 template <class T>
-struct Equations {
+struct Literal {
   Model<T> model;
   Workspace<T> workspace{model};
 
@@ -39,8 +39,8 @@ IdealState<T> after(int ticks, const PlantSettings& settings) {
       load_scene(std::filesystem::path(MIXLOOP_SCENES) / "mixed_loop_robot.yaml"));
   const auto values = scene->default_parameters();
   const std::vector<T> parameters(values.begin(), values.end()), home(scene->home.begin(), scene->home.end());
-  IdealPlant<T, Equations<T>> plant(plant_model(settings, *scene, 1000),
-                                    {make_model<T>(scene, std::span<const T>(parameters))});
+  IdealPlant<T, Literal<T>> plant(plant_model(settings, *scene, 1000),
+                                  {make_model<T>(scene, std::span<const T>(parameters))});
   IdealState<T> state = state_at(plant.model(), std::span<const T>(home));
   for (int k = 0; k < ticks; ++k) {
     const std::vector<T> tau = {T(0.1 * std::sin(0.2 * k)), T(0.3), T(-0.1)};
@@ -55,9 +55,8 @@ const PlantSettings kDelayed{.substeps = 2, .command_delay = 0.0024};
 TEST(IdealPlant, OnDoublesIsThePlantToTheBit) {
   const auto scene = std::make_shared<const Scene>(
       load_scene(std::filesystem::path(MIXLOOP_SCENES) / "mixed_loop_robot.yaml"));
-  Plant plant(
-      Dynamics(scene, scene->default_parameters(), Evaluation::reference, {Purpose::forward_dynamics}),
-      kDelayed, 1000, scene->home);
+  Plant plant({plant_equations(scene, Evaluation::reference, kDelayed), scene->default_parameters()},
+              kDelayed, 1000, scene->home);
   for (int k = 0; k < 50; ++k) {
     plant.command(std::array{0.1 * std::sin(0.2 * k), 0.3, -0.1});
     plant.advance();

@@ -38,9 +38,12 @@ inline constexpr double kRigRate = 1000;  // Hz
 
 inline Plant rig_plant(const PlantSettings& settings, double damping = 0) {
   const auto scene = rig(damping);
-  return {Dynamics(scene, scene->default_parameters(), Evaluation::interpreter,
-                   {Purpose::forward_dynamics, Purpose::linearisation}),
-          settings, kRigRate, std::vector{0.0, 0.0}};
+  return {{equations_of(scene, Evaluation::interpreter, {Purpose::forward_dynamics, Purpose::linearisation},
+                        {.friction_factor = settings.faults.change_friction()}),
+           scene->default_parameters()},
+          settings,
+          kRigRate,
+          std::vector{0.0, 0.0}};
 }
 
 /// Goes on by `ticks` with the wheel's and the slide's command held.

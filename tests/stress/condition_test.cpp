@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "tests/oracles/mixed_loop_robot.hpp"
 #include "tests/stress/figure.hpp"
 #include "tests/stress/scenes.hpp"
@@ -25,10 +25,11 @@ class MassMatrix {
  public:
   explicit MassMatrix(double payload)
       : scene_(papers_robot()),
-        dynamics_(scene_, std::array{payload}, Evaluation::machine_code, {Purpose::mass_matrix}) {}
+        dynamics_(equations_of(scene_, Evaluation::machine_code, {Purpose::mass_matrix}),
+                  std::array{payload}) {}
   Eigen::Matrix3d at(double a, double b) {
     Eigen::Matrix3d M;
-    dynamics_.mass_matrix(motors(a, b), 0, {M.data(), 9});
+    dynamics_.evaluate(Purpose::mass_matrix, {.psi = motors(a, b)}, {M.data(), 9});
     return M;
   }
   struct Eigenvalues {
@@ -43,7 +44,7 @@ class MassMatrix {
 
  private:
   SharedScene scene_;
-  Dynamics dynamics_;
+  Equations::Workspace dynamics_;
 };
 
 /// An upper bound of cond(M), from lengths, masses and inertias alone. M = B^T N B with the constant B of the

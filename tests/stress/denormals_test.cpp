@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "tests/stress/figure.hpp"
 #include "tests/stress/routes.hpp"
 #include "tests/stress/scenes.hpp"
@@ -40,10 +40,11 @@ TEST(Denormals, AreNotFlushedByAnythingThatIsLoaded) {
   look("at the start");
   const SharedScene scene = papers_robot();
   for (const Evaluation how : {Evaluation::reference, Evaluation::interpreter, Evaluation::machine_code}) {
-    Dynamics dynamics(scene, scene->default_parameters(), how, {Purpose::forward_dynamics});
+    Equations::Workspace dynamics(equations_of(scene, how, {Purpose::forward_dynamics}),
+                                  scene->default_parameters());
     std::vector<double> out(3);
-    dynamics.forward_dynamics(std::vector{1., 2., 3.}, std::vector{.1, .2, .3}, std::vector{0., 0., 0.}, 0,
-                              out);
+    const std::vector psi{1., 2., 3.}, psid{.1, .2, .3}, tau{0., 0., 0.};
+    dynamics.evaluate(Purpose::forward_dynamics, {psi, psid, tau}, out);
     look("after an evaluation");
   }
 }
@@ -72,7 +73,7 @@ TEST(DenormalStates, AreAsExactAsOthers) {
   const auto parameters = scene->default_parameters();
   Ruler ruler(scene, parameters);
   auto ways = routes(scene, Purpose::forward_dynamics, true);
-  for (Route& route : ways) route.routine->set_up(parameters);
+  for (Route& route : ways) route.evaluator.set_up(parameters);
   Figure figure("denormal_states", "eps x scale x condition", kMostUnits, states * 3);
   for (std::int64_t seed = 1; seed <= states; ++seed) {
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
@@ -84,7 +85,7 @@ TEST(DenormalStates, AreAsExactAsOthers) {
     }
     for (Route& route : ways) {
       std::vector<double> out(3);
-      route.routine->evaluate(state.arguments(), out.data());
+      route.evaluator.evaluate(state.arguments(), out);
       figure.look(ruler.error(Purpose::forward_dynamics, state, out),
                   [&] { return fmt::format("{}, seed {}, {}", route.name, seed, state.text()); });
     }
@@ -112,8 +113,8 @@ TEST(DenormalMasses, GiveTheirAccelerationOrNone) {
     const long double exact = static_cast<long double>(tau) / m;
     for (Route& route : ways) {
       double out = 0;
-      route.routine->set_up(std::span(&m, 1));
-      route.routine->evaluate(state.arguments(), &out);
+      route.evaluator.set_up(std::span(&m, 1));
+      route.evaluator.evaluate(state.arguments(), {&out, 1});
       if (!std::isfinite(out)) {
         // Reported: rightly where 1/m has no finite double.
         ++infinite;

@@ -8,7 +8,7 @@
 #include <ctime>
 #include <limits>
 
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "loop/simulate.hpp"
 #include "loop/truth.hpp"
 #include "tests/stress/figure.hpp"
@@ -25,9 +25,10 @@ class FreeRobot {
  public:
   explicit FreeRobot(double h)
       : scene_(papers_robot()),
-        energies_(scene_, scene_->default_parameters(), Evaluation::machine_code, {Purpose::energy}),
-        plant_(Dynamics(scene_, scene_->default_parameters(), Evaluation::machine_code,
-                        {Purpose::forward_dynamics}),
+        energies_(equations_of(scene_, Evaluation::machine_code, {Purpose::energy}),
+                  scene_->default_parameters()),
+        plant_({equations_of(scene_, Evaluation::machine_code, {Purpose::forward_dynamics}),
+                scene_->default_parameters()},
                {}, 1 / h, scene_->home) {
     plant_.command(std::array<double, 3>{});
   }
@@ -36,14 +37,14 @@ class FreeRobot {
   /// Kinetic and potential.
   std::array<double, 2> energy() {
     std::array<double, 2> parts{};
-    energies_.energy(plant_.psi(), plant_.psid(), 0, parts);
+    energies_.evaluate(Purpose::energy, {.psi = plant_.psi(), .psid = plant_.psid()}, parts);
     return parts;
   }
   std::string text() const { return text_of("psi", plant_.psi()) + "; " + text_of("psid", plant_.psid()); }
 
  private:
   SharedScene scene_;
-  Dynamics energies_;
+  Equations::Workspace energies_;
   Plant plant_;
 };
 
@@ -143,13 +144,13 @@ std::vector<Balance> balances_of(const SharedScene& scene, std::uint64_t seed, i
   Ruler ruler(scene, parameters);
   State state{uniform(random, scene->n(), 0.5), std::vector<double>(n, 0.0), {}};
   const Sizes sizes = ruler.sizes_at(state);
-  Plant plant(Dynamics(scene, parameters, Evaluation::interpreter, {Purpose::forward_dynamics}),
+  Plant plant({equations_of(scene, Evaluation::interpreter, {Purpose::forward_dynamics}), parameters},
               {.substeps = count}, 1000, state.psi);
-  Dynamics energies(scene, parameters, Evaluation::interpreter, {Purpose::energy});
+  Equations::Workspace energies(equations_of(scene, Evaluation::interpreter, {Purpose::energy}), parameters);
   const double weight = weight_of(*scene, parameters);
   const auto truth = [&] {
     std::array<double, 2> parts{};
-    energies.energy(plant.psi(), plant.psid(), plant.time(), parts);
+    energies.evaluate(Purpose::energy, {.psi = plant.psi(), .psid = plant.psid(), .t = plant.time()}, parts);
     Truth at;
     at.kinetic_energy = parts[0], at.potential_energy = parts[1], at.work = plant.work();
     return at;

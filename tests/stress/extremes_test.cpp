@@ -56,9 +56,9 @@ std::vector<double> motor_ratios(const Draw& draw) {
 void look(Figure& figure, Ruler& ruler, Purpose purpose, std::vector<Route>& ways, const Draw& draw,
           const State& state, std::int64_t seed) {
   for (Route& route : ways) {
-    std::vector<double> out(static_cast<std::size_t>(output_size(purpose, 3)));
-    route.routine->set_up(draw.values);
-    route.routine->evaluate(state.arguments(), out.data());
+    std::vector<double> out(output_size(purpose, 3, 3));
+    route.evaluator.set_up(draw.values);
+    route.evaluator.evaluate(state.arguments(), out);
     figure.look(ruler.error(purpose, state, out), [&] {
       return fmt::format("{} {}, seed {}, {}; {}", route.name, name_of(purpose), seed,
                          text_of("parameters", draw.values), state.text());
@@ -136,12 +136,12 @@ TEST(FoldedRatios, LoseNoMoreThanTheConditionNumberSays) {
     const auto parameters = scene->default_parameters();
     auto ways = routes(scene, Purpose::forward_dynamics, seed == 1 || full_length());
     Ruler ruler(scene, parameters);
-    for (Route& route : ways) route.routine->set_up(parameters);
+    for (Route& route : ways) route.evaluator.set_up(parameters);
     for (std::int64_t k = 0; k < states; ++k) {
       const State state = state_behind({r[0], r[1] * r[2], r[3] * r[4]}, ruler, random);
       for (Route& route : ways) {
         std::vector<double> out(3);
-        route.routine->evaluate(state.arguments(), out.data());
+        route.evaluator.evaluate(state.arguments(), out);
         figure.look(ruler.error(Purpose::forward_dynamics, state, out), [&] {
           return fmt::format("{}, seed {}, {}; {}", route.name, seed, text_of("r1 to r6", r), state.text());
         });

@@ -32,8 +32,11 @@ constexpr std::int64_t kLate = std::int64_t{1} << 40;
 
 Plant papers_plant(const PlantSettings& settings) {
   const SharedScene scene = papers_robot();
-  return {Dynamics(scene, scene->default_parameters(), Evaluation::machine_code, {Purpose::forward_dynamics}),
-          settings, 1000, scene->home};
+  return {{equations_of(scene, Evaluation::machine_code, {Purpose::forward_dynamics}),
+           scene->default_parameters()},
+          settings,
+          1000,
+          scene->home};
 }
 
 // A mechanism that knows no time moves by the same bytes at tick 10 and at 2^40 + 10, a command delay of 2.4
@@ -74,7 +77,7 @@ TEST(LateTicksTime, IsTheTickOverTheRate) {
   std::mt19937_64 random(1);
   for (std::int64_t i = 0; i < starts; ++i) {
     const std::int64_t k = kLate + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(kLate));
-    Plant plant(Dynamics(scene, {}, Evaluation::interpreter, {Purpose::forward_dynamics}), {}, 1000,
+    Plant plant({equations_of(scene, Evaluation::interpreter, {Purpose::forward_dynamics}), {}}, {}, 1000,
                 std::vector{0.0});
     go_to_tick(plant, k);
     const std::vector<double> nothing(1, 0.0);

@@ -35,7 +35,7 @@ TEST(NearSingularDynamics, IsAsExactAsElsewhere) {
   const auto parameters = scene->default_parameters();
   Ruler ruler(scene, parameters);
   auto ways = routes(scene, Purpose::forward_dynamics, true);
-  for (Route& route : ways) route.routine->set_up(parameters);
+  for (Route& route : ways) route.evaluator.set_up(parameters);
   const auto robot = oracle::paper_numbers<double>();
   Figure figure("near_singular_dynamics", "eps x scale x condition", kMostUnits,
                 states * static_cast<std::int64_t>(ways.size()));
@@ -48,7 +48,7 @@ TEST(NearSingularDynamics, IsAsExactAsElsewhere) {
     state.psi[0] = uniform(random, 1, 10)[0];
     for (Route& route : ways) {
       std::vector<double> out(3);
-      route.routine->evaluate(state.arguments(), out.data());
+      route.evaluator.evaluate(state.arguments(), out);
       figure.look(ruler.error(Purpose::forward_dynamics, state, out), [&] {
         return fmt::format("{}, seed {}, {} rad away, {}", route.name, seed, away, state.text());
       });

@@ -34,12 +34,12 @@ TEST(RandomScenes, AreAsExactOnEveryRouteAsTheConditionNumberAllows) {
       auto ways =
           routes(scene, purpose, full_length() && seed % 50 == 0 && purpose == Purpose::forward_dynamics);
       std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-      for (Route& route : ways) route.routine->set_up(parameters);
+      for (Route& route : ways) route.evaluator.set_up(parameters);
       for (std::int64_t k = 0; k < states; ++k) {
         const State state = random_state(*scene, 3, random);
-        std::vector<double> out(static_cast<std::size_t>(output_size(purpose, scene->n())));
+        std::vector<double> out(output_size(purpose, scene->n(), scene->n_u()));
         for (Route& route : ways) {
-          route.routine->evaluate(state.arguments(), out.data());
+          route.evaluator.evaluate(state.arguments(), out);
           figure.look(ruler.error(purpose, state, out), [&] {
             return fmt::format("{} {}, seed {}, {}", route.name, name_of(purpose), seed, state.text());
           });
@@ -61,11 +61,11 @@ RoundTrips round_trips(Route& inverse, Route& forward, Ruler& ruler, State state
   const auto n = state.psi.size();
   std::vector<double> tau(n), back(n), tau_back(n);
   const std::vector<double> psidd = state.input;
-  inverse.routine->evaluate(state.arguments(), tau.data());
+  inverse.evaluator.evaluate(state.arguments(), tau);
   state.input = tau;
-  forward.routine->evaluate(state.arguments(), back.data());
+  forward.evaluator.evaluate(state.arguments(), back);
   state.input = back;
-  inverse.routine->evaluate(state.arguments(), tau_back.data());
+  inverse.evaluator.evaluate(state.arguments(), tau_back);
   const Sizes sizes = ruler.sizes_at(state);
   const auto M = [&](std::size_t i) { return sizes.M[static_cast<Eigen::Index>(i)]; };
   RoundTrips trips;
@@ -91,7 +91,7 @@ void hold_trips(Figure& acceleration, Figure& torque, std::size_t which, std::in
   auto inverse = routes(scene, Purpose::inverse_dynamics, which < 3),
        forward = routes(scene, Purpose::forward_dynamics, which < 3);
   for (auto* ways : {&inverse, &forward})
-    for (Route& route : *ways) route.routine->set_up(parameters);
+    for (Route& route : *ways) route.evaluator.set_up(parameters);
   std::mt19937_64 random(which + 1);
   for (std::int64_t k = 0; k < states; ++k) {
     const State state = random_state(*scene, log_uniform(random, 1, 1e3), random);

@@ -34,15 +34,15 @@ double log_uniform(std::mt19937_64& random, double low, double high) {
 
 std::vector<Route> routes(const std::shared_ptr<const Scene>& scene, Purpose purpose, bool machine_code) {
   std::vector<Route> all;
-  all.push_back({"reference", reference_routine(scene, purpose)});
+  all.emplace_back("reference", reference_routine(scene, purpose));
   const Program program = trace(scene, purpose).program;
-  all.push_back({"interpreter", std::make_unique<Interpreter>(program)});
+  all.emplace_back("interpreter", std::make_unique<Interpreter>(program));
   if (!machine_code) return all;
   std::string complaint;
   const std::string key = std::string(name_of(purpose)) + "\n" + scene->canonical;
   if (auto code = MachineCode::load(
           key, [&] { return program; }, complaint))
-    all.push_back({"machine_code", std::move(code)});
+    all.emplace_back("machine_code", std::move(code));
   return all;
 }
 

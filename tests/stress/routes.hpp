@@ -18,7 +18,7 @@ struct State {
   std::vector<double> psi, psid, input;
   double t = 0.0;
 
-  Arguments arguments() const { return {psi.data(), psid.data(), input.data(), t}; }
+  Arguments arguments() const { return {psi, psid, input, t}; }
   std::string text() const;
 };
 
@@ -29,8 +29,12 @@ double log_uniform(std::mt19937_64& random, double low, double high);
 
 /// A way to evaluate one purpose: `reference`, `interpreter` or `machine_code`.
 struct Route {
+  Route(std::string named, std::unique_ptr<const Routine> by)
+      : name(std::move(named)), routine(std::move(by)), evaluator(*routine) {}
+
   std::string name;
-  std::unique_ptr<Routine> routine;
+  std::unique_ptr<const Routine> routine;
+  Evaluator evaluator;
 };
 
 /// All of them; machine code only where asked for (it takes a compiler a second or so) and to be had.

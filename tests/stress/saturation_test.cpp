@@ -23,9 +23,9 @@ struct Stepped {
 
 Stepped stepped(const SharedScene& scene, const std::vector<double>& limit, std::int64_t seed, int substeps) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  Plant plant(
-      Dynamics(scene, scene->default_parameters(), Evaluation::machine_code, {Purpose::forward_dynamics}),
-      {.substeps = substeps, .torque_limit = limit}, 1000, scene->home);
+  Plant plant({equations_of(scene, Evaluation::machine_code, {Purpose::forward_dynamics}),
+               scene->default_parameters()},
+              {.substeps = substeps, .torque_limit = limit}, 1000, scene->home);
   std::vector<double> tau(3);
   Stepped result;
   const auto look = [&] {

@@ -18,7 +18,7 @@ struct Sample {
   std::vector<double> psi, psid, input;
   double t = 0.0;
 
-  Arguments arguments() const { return {psi.data(), psid.data(), input.data(), t}; }
+  Arguments arguments() const { return {psi, psid, input, t}; }
 };
 
 inline Sample random_sample(const Scene& scene, std::mt19937_64& random, double angle = 10.0) {

@@ -23,16 +23,17 @@ namespace {
 // doubles, is as far off. Programs may not be three times as far.
 constexpr double kMostUlps = 24.0;
 
-double worst_error(const std::shared_ptr<const Scene>& scene, Purpose purpose, Routine& routine, int states,
-                   std::uint64_t seed) {
+double worst_error(const std::shared_ptr<const Scene>& scene, Purpose purpose, const Routine& routine,
+                   int states, std::uint64_t seed) {
   const std::vector<double> parameters = scene->default_parameters();
-  routine.set_up(parameters);
+  Evaluator evaluator(routine);
+  evaluator.set_up(parameters);
   std::mt19937_64 random(seed);
-  std::vector<double> out(static_cast<std::size_t>(output_size(purpose, scene->n())));
+  std::vector<double> out(output_size(purpose, scene->n(), scene->n_u()));
   double worst = 0.0;
   for (int k = 0; k < states; ++k) {
     const Sample sample = random_sample(*scene, random);
-    routine.evaluate(sample.arguments(), out.data());
+    evaluator.evaluate(sample.arguments(), out);
     worst = std::max(worst, error_in_ulps(oracle(scene, parameters, purpose, sample), out));
   }
   return worst;
@@ -45,7 +46,7 @@ void certify(const std::shared_ptr<const Scene>& scene, const std::string& name,
     for (Tracing tracing : {Tracing::literal, Tracing::recursive, Tracing::articulated, Tracing::harmonic}) {
       Program program = trace(scene, purpose, tracing);
       if (program.outputs.empty()) continue;
-      Interpreter interpreter(program);
+      const Interpreter interpreter(program);
       const double error = worst_error(scene, purpose, interpreter, states, seed);
       EXPECT_LE(error, std::max(kMostUlps, 3.0 * reference))
           << name << ", " << name_of(purpose) << ", " << name_of(tracing) << ", seed " << seed;
@@ -111,7 +112,7 @@ TEST(Certification, ArticulatedBodiesAreAsExactOnTreesAndLongChains) {
   certify(tree, "tree", 4, 1);
   for (const auto& scene : {made(oracle::serial_chain(12)), made(oracle::parallelogram_chain(4))}) {
     const TracedProgram traced = trace(scene, Purpose::forward_dynamics);
-    Interpreter interpreter(traced.program);
+    const Interpreter interpreter(traced.program);
     const double reference = worst_error(scene, Purpose::forward_dynamics,
                                          *reference_routine(scene, Purpose::forward_dynamics), 3, 1);
     EXPECT_LE(worst_error(scene, Purpose::forward_dynamics, interpreter, 3, 1),

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "certification.hpp"
-#include "dynamics/evaluator.hpp"
+#include "dynamics/equations.hpp"
 #include "dynamics/program/cache.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/lanes.hpp"
@@ -77,16 +77,17 @@ TEST_F(MachineCodeTest, GivesTheInterpretersBits) {
       auto code = MachineCode::load(
           std::string(name) + std::string(name_of(purpose)), [&] { return program; }, complaint);
       ASSERT_TRUE(code) << complaint;
-      Interpreter interpreter(program);
-      code->set_up(parameters);
-      interpreter.set_up(parameters);
+      const Interpreter interpreter(program);
+      Evaluator by_code(*code), by_interpreter(interpreter);
+      by_code.set_up(parameters);
+      by_interpreter.set_up(parameters);
       std::mt19937_64 random(3);
       std::vector<double> compiled(program.outputs.size()), interpreted(program.outputs.size());
       for (int k = 0; k < 200; ++k) {
         const Sample sample =
             random_sample(*scene, random, k % 10 == 0 ? 1e8 : 30.0);  // also beyond the fast range
-        code->evaluate(sample.arguments(), compiled.data());
-        interpreter.evaluate(sample.arguments(), interpreted.data());
+        by_code.evaluate(sample.arguments(), compiled);
+        by_interpreter.evaluate(sample.arguments(), interpreted);
         ASSERT_EQ(compiled, interpreted) << name << ", " << name_of(purpose) << ", state " << k;
       }
     }
@@ -102,9 +103,10 @@ TEST_F(MachineCodeTest, EachLaneGivesTheBitsOfItsStateAlone) {
     const auto lanes = LaneCode::load(
         name, [&] { return program; }, complaint);
     ASSERT_TRUE(lanes) << complaint;
-    lanes->set_up(parameters);
-    Interpreter interpreter(program);
-    interpreter.set_up(parameters);
+    const std::vector<double> constants = lanes->constants(parameters);
+    const Interpreter interpreter(program);
+    Evaluator evaluator(interpreter);
+    evaluator.set_up(parameters);
     const auto width = static_cast<std::size_t>(lanes->width()), n = static_cast<std::size_t>(scene->n());
     std::mt19937_64 random(5);
     for (int round = 0; round < 20; ++round) {
@@ -119,9 +121,9 @@ TEST_F(MachineCodeTest, EachLaneGivesTheBitsOfItsStateAlone) {
         }
         t[lane] = sample.t;
       }
-      lanes->evaluate(psi.data(), psid.data(), tau.data(), t.data(), out.data());
+      lanes->run({psi, psid, tau, t}, constants, out.data());
       for (std::size_t lane = 0; lane < width; ++lane) {
-        interpreter.evaluate(samples[lane].arguments(), alone.data());
+        evaluator.evaluate(samples[lane].arguments(), alone);
         for (std::size_t i = 0; i < n; ++i)
           ASSERT_EQ(out[i * width + lane], alone[i]) << name << ", lane " << lane;
       }
@@ -133,17 +135,19 @@ TEST_F(MachineCodeTest, EachLaneGivesTheBitsOfItsStateAlone) {
 TEST_F(MachineCodeTest, PartsOfALongProgramGiveTheInterpretersBits) {
   const auto chain =
       std::make_shared<const Scene>(load_scene(parse_document(oracle::serial_chain(8), "chain")));
-  Dynamics compiled(chain, {}, Evaluation::machine_code, {Purpose::forward_dynamics});
-  Dynamics interpreted(chain, {}, Evaluation::interpreter, {Purpose::forward_dynamics});
+  Equations::Workspace compiled(equations_of(chain, Evaluation::machine_code, {Purpose::forward_dynamics}),
+                                {});
+  Equations::Workspace interpreted(equations_of(chain, Evaluation::interpreter, {Purpose::forward_dynamics}),
+                                   {});
   ASSERT_GT(trace(chain, Purpose::forward_dynamics).program.run_operations().flops(), 2000u);
-  ASSERT_EQ(compiled.evaluation(), Evaluation::machine_code);
+  ASSERT_EQ(compiled.equations().evaluation(), Evaluation::machine_code);
   std::mt19937_64 random(4);
   std::vector<double> one(8), other(8);
   for (int k = 0; k < 50; ++k) {
     const Sample sample = random_sample(*chain, random);
     const auto tau = std::span(sample.input).first(8);
-    compiled.forward_dynamics(sample.psi, sample.psid, tau, 0.0, one);
-    interpreted.forward_dynamics(sample.psi, sample.psid, tau, 0.0, other);
+    compiled.evaluate(Purpose::forward_dynamics, {sample.psi, sample.psid, tau}, one);
+    interpreted.evaluate(Purpose::forward_dynamics, {sample.psi, sample.psid, tau}, other);
     ASSERT_EQ(one, other);
   }
 }
@@ -151,8 +155,9 @@ TEST_F(MachineCodeTest, PartsOfALongProgramGiveTheInterpretersBits) {
 TEST_F(MachineCodeTest, AProgramTooLongToCompileIsInterpretedAndSaysSo) {
   const auto chain =
       std::make_shared<const Scene>(load_scene(parse_document(oracle::serial_chain(64), "chain")));
-  const Dynamics dynamics(chain, {}, Evaluation::machine_code, {Purpose::forward_dynamics});
-  EXPECT_EQ(dynamics.evaluation(), Evaluation::interpreter);
+  const auto equations = equations_of(chain, Evaluation::machine_code, {Purpose::forward_dynamics});
+  EXPECT_EQ(equations->evaluation(), Evaluation::interpreter);
+  EXPECT_EQ(equations->complaint(), "");
   EXPECT_TRUE(entries().empty());
 }
 
@@ -221,64 +226,37 @@ TEST_F(MachineCodeTest, TwoMayBuildAtOnce) {
 
 TEST_F(MachineCodeTest, TheInterpreterServesWithoutACompiler) {
   ::setenv("MIXLOOP_CXX", "", 1);
-  Dynamics dynamics(robot_, robot_->default_parameters(), Evaluation::machine_code,
-                    {Purpose::forward_dynamics});
-  EXPECT_EQ(dynamics.evaluation(), Evaluation::interpreter);
+  const auto equations = equations_of(robot_, Evaluation::machine_code, {Purpose::forward_dynamics});
+  EXPECT_EQ(equations->evaluation(), Evaluation::interpreter);
+  EXPECT_EQ(equations->complaint(), "no C++ compiler (c++, g++, clang++, $CXX)");
 }
 
 TEST_F(MachineCodeTest, NoEvaluationOfAnyPurposeAllocates) {
   if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has its own malloc";
-  const std::array psi{1.0, 2.0, 3.0}, psid{0.1, 0.2, 0.3}, tau{0.5, 0.25, 0.125};
+  const std::array psi{1.0, 2.0, 3.0}, psid{0.1, 0.2, 0.3};
   const std::array both{0.5, 0.25, 0.125, 0.5, 0.25, 0.125};
-  static_assert(noexcept(std::declval<Dynamics>().forward_dynamics(psi, psid, tau, 0.0, {})),
-                "no exception leaves");
   for (Evaluation how : {Evaluation::reference, Evaluation::interpreter, Evaluation::machine_code}) {
     for (Purpose purpose : kPurposes) {
-      Dynamics dynamics(robot_, robot_->default_parameters(), how, {purpose});
-      std::array<double, 27> out{};
+      Equations::Workspace dynamics(equations_of(robot_, how, {purpose}), robot_->default_parameters());
+      std::vector<double> out = dynamics.outputs(purpose);
+      static_assert(noexcept(dynamics.evaluate(purpose, {psi, psid, both}, out)), "no exception leaves");
       AllocationCounter counter;
-      switch (purpose) {
-        case Purpose::forward_dynamics:
-          dynamics.forward_dynamics(psi, psid, tau, 0.0, out);
-          break;
-        case Purpose::mass_times:
-          dynamics.mass_times(psi, tau, 0.0, out);
-          break;
-        case Purpose::mass_matrix:
-          dynamics.mass_matrix(psi, 0.0, out);
-          break;
-        case Purpose::bias:
-          dynamics.bias(psi, psid, 0.0, out);
-          break;
-        case Purpose::inverse_dynamics:
-          dynamics.inverse_dynamics(psi, psid, tau, 0.0, out);
-          break;
-        case Purpose::end_effector:
-          dynamics.end_effector(psi, psid, tau, 0.0, out);
-          break;
-        case Purpose::energy:
-          dynamics.energy(psi, psid, 0.0, out);
-          break;
-        case Purpose::linearisation:
-          dynamics.linearisation(psi, psid, tau, 0.0, out);
-          break;
-        case Purpose::dynamics_and_mass_times:
-          dynamics.dynamics_and_mass_times(psi, psid, both, 0.0, out);
-          break;
-      }
+      EXPECT_EQ(dynamics.evaluate(purpose, {psi, psid, both}, out), Status::ok);
       EXPECT_EQ(counter.count(), 0u) << name_of(how) << ", " << name_of(purpose);
     }
   }
 }
 
 TEST_F(MachineCodeTest, AParameterChangesWithoutANewProgram) {
-  Dynamics dynamics(robot_, std::vector{5.0}, Evaluation::machine_code, {Purpose::forward_dynamics});
-  Dynamics reference(robot_, std::vector{2.0}, Evaluation::reference, {Purpose::forward_dynamics});
+  Equations::Workspace dynamics(equations_of(robot_, Evaluation::machine_code, {Purpose::forward_dynamics}),
+                                std::vector{5.0});
+  Equations::Workspace reference(equations_of(robot_, Evaluation::reference, {Purpose::forward_dynamics}),
+                                 std::vector{2.0});
   dynamics.set_parameters(std::vector{2.0});
   const std::array psi{1.0, 2.0, 3.0}, psid{0.1, 0.2, 0.3}, tau{0.5, 0.25, 0.125};
   std::array<double, 3> out{}, expected{};
-  dynamics.forward_dynamics(psi, psid, tau, 0.0, out);
-  reference.forward_dynamics(psi, psid, tau, 0.0, expected);
+  dynamics.evaluate(Purpose::forward_dynamics, {psi, psid, tau}, out);
+  reference.evaluate(Purpose::forward_dynamics, {psi, psid, tau}, expected);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(out[k], expected[k], 1e-11 * std::abs(expected[1]));
 }
 

@@ -20,10 +20,11 @@ class GraphTest : public ::testing::Test {
  protected:
   Expression psi(std::size_t i) const { return Expression::input(Block::psi, i); }
   double value(const Expression& x, std::vector<double> at) {
-    Interpreter interpreter(make_program(graph_, std::vector{x.node()}));
-    interpreter.set_up({});
+    const Interpreter interpreter(make_program(graph_, std::vector{x.node()}));
+    Evaluator evaluator(interpreter);
+    evaluator.set_up({});
     double out = 0.0;
-    interpreter.evaluate({at.data(), nullptr, nullptr, 0.0}, &out);
+    evaluator.evaluate({.psi = at}, {&out, 1});
     return out;
   }
   OperationCount operations(const Expression& x) {
@@ -64,11 +65,12 @@ TEST_F(GraphTest, LongSumsAreTakenTogetherSideBySide) {
   EXPECT_EQ(depth(chained, chained.outputs[0]), 8);
   EXPECT_EQ(depth(program, program.outputs[0]), 4);
   EXPECT_EQ(depth(program, program.outputs[1]), 3);
-  Interpreter interpreter(program);
-  interpreter.set_up({});
+  const Interpreter interpreter(program);
+  Evaluator evaluator(interpreter);
+  evaluator.set_up({});
   const std::vector<double> at{9, 1, 2, 1, 2, 1, 2, 1};
   double out[2];
-  interpreter.evaluate({at.data(), nullptr, nullptr, 0.0}, out);
+  evaluator.evaluate({.psi = at}, out);
   EXPECT_EQ(out[0], 81.0 - 16.0);
   EXPECT_EQ(out[1], 72.0);
 }

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/equations.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "dynamics/program/interpreter.hpp"
+#include "dynamics/program/machine_code.hpp"
+#include "dynamics/program/reference.hpp"
+#include "dynamics/program/trace.hpp"
+#include "dynamics/scene/canonical.hpp"
+
+namespace mixloop {
+namespace {
+
+std::shared_ptr<const Scene> with_friction_factor(const Scene& scene) {
+  auto scaled = std::make_shared<Scene>(scene);
+  scaled->friction_factor = true;
+  scaled->canonical = canonical_text(*scaled);
+  return scaled;
+}
+
+}  // namespace
+
+std::string_view name_of(Evaluation how) {
+  return how == Evaluation::reference     ? "reference"
+         : how == Evaluation::interpreter ? "interpreter"
+                                          : "machine_code";
+}
+
+Equations::Equations(std::shared_ptr<const Scene> scene, Evaluation how, std::span<const Purpose> purposes,
+                     Options options)
+    : scene_(std::move(scene)), evaluation_(how) {
+  const auto scaled =
+      options.friction_factor && scene_->has_friction() ? with_friction_factor(*scene_) : nullptr;
+  for (Purpose purpose : purposes) {
+    const auto at = static_cast<std::size_t>(purpose);
+    plain_[at] = routine(scene_, purpose, how);
+    if (scaled && signature(purpose).has_forces) scaled_[at] = routine(scaled, purpose, how);
+  }
+}
+
+std::unique_ptr<const Routine> Equations::routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,
+                                                  Evaluation how) {
+  if (how == Evaluation::reference) return reference_routine(scene, purpose);
+  std::optional<Program> traced;
+  const auto program = [&] {
+    if (!traced) traced = trace(scene, purpose).program;
+    return *traced;
+  };
+  if (how == Evaluation::machine_code) {
+    const std::string key = std::string(name_of(purpose)) + "\n" + scene->canonical;
+    std::string complaint;
+    if (auto code = MachineCode::load(key, program, complaint)) return code;
+    if (complaint_.empty()) complaint_ = complaint;
+    evaluation_ = Evaluation::interpreter;
+  }
+  return std::make_unique<Interpreter>(program());
+}
+
+std::shared_ptr<const Equations> equations_of(std::shared_ptr<const Scene> scene, Evaluation how,
+                                              std::initializer_list<Purpose> purposes,
+                                              Equations::Options options) {
+  return std::make_shared<const Equations>(std::move(scene), how,
+                                           std::span(purposes.begin(), purposes.size()), options);
+}
+
+Equations::Workspace::Workspace(std::shared_ptr<const Equations> equations,
+                                std::span<const double> parameters)
+    : equations_(std::move(equations)), values_(parameters.size() + 1) {
+  for (std::size_t i = 0; i < serving_.size(); ++i) {
+    if (equations_->plain_[i]) serving_[i] = Evaluator(*equations_->plain_[i]);
+    if (equations_->scaled_[i]) resting_[i] = Evaluator(*equations_->scaled_[i]);
+  }
+  set_parameters(parameters);
+}
+
+void Equations::Workspace::set_parameters(std::span<const double> parameters, double friction) noexcept {
+  std::copy(parameters.begin(), parameters.end(), values_.begin());
+  values_.back() = friction;
+  if (scaled_ != (friction != 1)) {
+    scaled_ = !scaled_;
+    for (std::size_t i = 0; i < serving_.size(); ++i)
+      if (resting_[i]) std::swap(serving_[i], resting_[i]);
+  }
+  for (Evaluator& evaluator : serving_)
+    if (evaluator) evaluator.set_up(values_);
+}
+
+}  // namespace mixloop

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dynamics/program/routine.hpp"
+#include "dynamics/purpose.hpp"
+#include "dynamics/scene/scene.hpp"
+
+namespace mixloop {
+
+/// How the equations of motion are evaluated.
+enum class Evaluation : std::uint8_t {
+  reference,     ///< the procedure as it stands, on doubles
+  interpreter,   ///< the scene's programs, interpreted
+  machine_code,  ///< the scene's programs, compiled; interpreted where there is no compiler, and those too
+                 ///< long to compile (kMostCompiledOperations)
+};
+
+/// `reference`, `interpreter`, `machine_code`.
+std::string_view name_of(Evaluation how);
+
+/// A scene's equations of motion, ready to evaluate for the purposes asked for. Constant: threads share them,
+/// each with a Workspace of its own.
+class Equations {
+ public:
+  class Workspace;
+  struct Options {
+    bool friction_factor = false;  ///< viscous friction is to be scaled by Workspace::set_parameters
+  };
+
+  /// Traces (and compiles, or finds compiled) the programs. Throws InputError for a scene whose constraints
+  /// cannot be evaluated.
+  Equations(std::shared_ptr<const Scene> scene, Evaluation how, std::span<const Purpose> purposes,
+            Options options);
+
+  const Scene& scene() const { return *scene_; }
+  /// What serves; `interpreter` where machine code was asked for and at least one program is interpreted.
+  Evaluation evaluation() const { return evaluation_; }
+  /// Why programs are interpreted that should have been compiled; empty where none is, or is but too long.
+  const std::string& complaint() const { return complaint_; }
+
+ private:
+  using Routines = std::array<std::unique_ptr<const Routine>, kPurposes.size()>;
+
+  std::unique_ptr<const Routine> routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,
+                                         Evaluation how);
+
+  std::shared_ptr<const Scene> scene_;
+  Evaluation evaluation_;
+  std::string complaint_;
+  Routines plain_, scaled_;  ///< of the scene as it stands, and with its friction times a factor
+};
+
+/// The same, to be shared.
+std::shared_ptr<const Equations> equations_of(std::shared_ptr<const Scene> scene, Evaluation how,
+                                              std::initializer_list<Purpose> purposes,
+                                              Equations::Options options = {});
+
+/// What evaluations need beside the equations, for the parameters' values in force. One thread at a time uses
+/// it; a copy is another.
+class Equations::Workspace {
+ public:
+  Workspace(std::shared_ptr<const Equations> equations, std::span<const double> parameters);
+
+  const Equations& equations() const { return *equations_; }
+  const Scene& scene() const { return equations_->scene(); }
+  /// As many numbers as a purpose gives.
+  std::vector<double> outputs(Purpose purpose) const {
+    return std::vector<double>(output_size(purpose, scene().n(), scene().n_u()));
+  }
+
+  /// Runs the set-up programs: new values for the scene's parameters, and a factor on its viscous friction,
+  /// which equations without that option don't know. Where it is 1, the bits are those of equations without.
+  void set_parameters(std::span<const double> parameters, double friction = 1) noexcept;
+
+  /// Evaluates a purpose that was asked for. Spans are as long as its signature says, in SI units; outputs
+  /// may not overlap inputs. Doesn't allocate, lock, print or throw.
+  Status evaluate(Purpose purpose, const Arguments& at, std::span<double> outputs) noexcept {
+    return serving_[static_cast<std::size_t>(purpose)].evaluate(at, outputs);
+  }
+
+ private:
+  using Evaluators = std::array<Evaluator, kPurposes.size()>;
+
+  std::shared_ptr<const Equations> equations_;
+  std::vector<double> values_;    ///< the parameters', then the factor
+  Evaluators serving_, resting_;  ///< where there is a factor: with it and without, as it is 1 or not
+  bool scaled_ = false;           ///< those with it serve
+};
+
+}  // namespace mixloop

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/symbolic/operation_count.hpp"
+
+namespace mixloop {
+
+std::string OperationCount::text() const {
+  std::string result;
+  auto say = [&](std::size_t count, const char* name) {
+    if (count > 0) result += (result.empty() ? "" : " + ") + std::to_string(count) + " " + name;
+  };
+  say(add, "add"), say(mul, "mul"), say(div, "div"), say(sqrt, "sqrt"), say(other, "exp/log/atan2"),
+      say(sincos, "sincos");
+  return result.empty() ? "nothing" : result;
+}
+
+}  // namespace mixloop
