@@ -14,6 +14,7 @@
 #include "commands/children.hpp"
 #include "commands/warnings.hpp"
 #include "loop/inputs.hpp"
+#include "processes/command_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/report_line.hpp"
 #include "report/progress.hpp"
