@@ -19,6 +19,12 @@ namespace {
 
 using namespace mixloop;
 
+struct Nothing final : LockstepSide {
+  bool measure(std::int64_t, std::span<double>, std::span<double>) override { return false; }
+  bool advance(std::int64_t, std::span<const double>) override { return true; }
+  void truth(std::int64_t, truth_t&) override {}
+};
+
 pid_t in_child(const std::function<void()>& work) {
   const pid_t child = fork();
   if (child != 0) return child;
@@ -46,9 +52,7 @@ int main(int argc, char** argv) {
   });
 
   Bus bus;
-  PlantSide side;
-  side.measure = [](std::int64_t, std::span<double>, std::span<double>) { return false; };
-  side.advance = [](std::int64_t, std::span<const double>) { return true; };
+  Nothing side;
   LockstepPlant plant(bus, stop, {.n = n, .last_tick = ticks}, side);
   plant.run();
   waitpid(planner, nullptr, 0);

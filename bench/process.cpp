@@ -36,10 +36,10 @@ double tick_time(Evaluation how, int runs) {
   const Plan plan = make_plan(experiment);
   double least = 1e9;
   for (int i = 0; i < runs; ++i) {
-    Recorder recorder(experiment, plan);
+    RecordedPlant run(experiment, plan);
     Clock::time_point first, last;
     std::int64_t ticks = 0;
-    simulate(experiment, plan, recorder, [&](std::int64_t k) {  // past the set-up: from tick to tick
+    simulate(run, [&](std::int64_t k) {  // past the set-up: from tick to tick
       if (k == 0) first = Clock::now();
       if (k % 100 == 0) last = Clock::now(), ticks = k;
       return true;

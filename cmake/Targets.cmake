@@ -41,5 +41,7 @@ set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstrea
 mixloop_precompiled(numbers ${standard} <Eigen/Dense> <fmt/format.h>)
 mixloop_precompiled(people ${standard} <Eigen/Core> <fmt/format.h>)
 if(MIXLOOP_TESTS)
+  # GCC takes a precompiled header only where the same macros are defined.
+  target_link_libraries(mixloop_tests INTERFACE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json GTest::gmock)
   mixloop_precompiled(tests ${standard} <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <gmock/gmock.h> <gtest/gtest.h>)
 endif()

@@ -2,7 +2,6 @@
 #include "commands/attached.hpp"
 
 #include "loop/recorder.hpp"
-#include "loop/result.hpp"
 #include "processes/bus_line.hpp"
 #include "runtime/bus/wire.hpp"
 
@@ -29,15 +28,15 @@ class Listener {
   bool heard() const { return session_ != 0; }
   std::int64_t latest() const { return latest_; }
 
-  nlohmann::json result(const Experiment& experiment, bool interrupted, double wall_time) {
+  Result result(const Experiment& experiment, bool interrupted, double wall_time) {
     if (interrupted) recorder_.interrupted();
     Measures measures = recorder_.measures();
     const std::int64_t missing = plan_.ticks() + 1 - complete_;
     if (missing > 0) measures.trajectory_sha256.clear();
-    auto json = result_json(experiment, measures, "attached", wall_time);
-    json["missing_ticks"] = missing;
-    json["session"] = session_;
-    return json;
+    Result result = result_of(experiment, measures, "attached", wall_time);
+    result.missing_ticks = missing;
+    result.session = session_;
+    return result;
   }
 
  private:
@@ -86,8 +85,8 @@ RunFault no_plant_heard(const Bus& bus, const std::string& which) {
               "network namespace"};
 }
 
-nlohmann::json attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
-                        const StopSwitch& stop) {
+Result attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
+                const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
   Bus bus(options);
   Listener listener(experiment, plan, bus);

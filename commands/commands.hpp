@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 /// The commands of `mixloop`, each in the file of its name. `status` receives the exit status.
 namespace mixloop {

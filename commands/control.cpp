@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -134,9 +136,7 @@ void add_control_command(CLI::App& app, int& status) {
   const auto add = [&](const char* name, const char* what, std::function<int()> act) {
     auto* sub = command->add_subcommand(name, what);
     add_bus_options(*sub, options->bus);
-    sub->add_option("--patience", options->patience, "seconds to listen for the plant, 5")
-        ->type_name("S")
-        ->check(CLI::Range(0.05, 3600.0));
+    add_seconds_option(*sub, "--patience", options->patience, "seconds to listen for the plant, 5");
     sub->add_flag("--json", options->json, "print one JSON object on stdout and nothing else");
     sub->callback([act, &status] { status = act(); });
     return sub;

@@ -2,6 +2,8 @@
 #include "dynamics/program/explanation.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
 #include "dynamics/scene/load_scene.hpp"

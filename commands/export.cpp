@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 // A log's messages as CSV, a file a channel.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands/commands.hpp"
-#include "commands/csv_folder.hpp"
-#include "commands/progress.hpp"
 #include "loop/result.hpp"
 #include "processes/command_line.hpp"
+#include "report/csv_folder.hpp"
+#include "report/progress.hpp"
 #include "runtime/bus/log_reader.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 #include "watch/any_message.hpp"
 
 namespace mixloop {
@@ -34,11 +36,7 @@ void name_columns(const AnyMessage& message, Column&& column) {
     else
       for (std::size_t i = 1; i <= std::size(value); ++i) column(fmt::format("{}_{}", field, i), said);
   };
-  std::visit(
-      [&]<class Message>(const Message& m) {
-        if constexpr (!std::is_same_v<Message, std::monostate>) visit_fields(m, name);
-      },
-      message);
+  std::visit([&](const auto& m) { visit_fields(m, name); }, message);
 }
 
 /// Appends the numbers of a message, each after a comma, with the digits that read back as the same double.
@@ -49,11 +47,7 @@ void append_numbers(fmt::memory_buffer& line, const AnyMessage& message) {
     else
       for (const double x : value) fmt::format_to(std::back_inserter(line), ",{}", x);
   };
-  std::visit(
-      [&]<class Message>(const Message& m) {
-        if constexpr (!std::is_same_v<Message, std::monostate>) visit_fields(m, add);
-      },
-      message);
+  std::visit([&](const auto& m) { visit_fields(m, add); }, message);
 }
 
 std::int32_t dimension(Bytes bytes) { return peek(bytes)->n; }

@@ -7,7 +7,7 @@
 
 namespace mixloop {
 
-void write_junit(const std::string& file, const nlohmann::json& results) {
+void write_junit(const std::string& file, std::span<const Result> results) {
   tinyxml2::XMLDocument document;
   document.InsertFirstChild(document.NewDeclaration());
   auto* suite = document.NewElement("testsuite");
@@ -17,19 +17,18 @@ void write_junit(const std::string& file, const nlohmann::json& results) {
   for (const auto& result : results) {
     auto* test = suite->InsertNewChildElement("testcase");
     test->SetAttribute("classname", "mixloop.track");
-    test->SetAttribute("name", result.at("experiment").get<std::string>().c_str());
-    test->SetAttribute("time", result.value("wall_time", 0.0));
-    if (result.contains("error")) {
+    test->SetAttribute("name", result.experiment.c_str());
+    test->SetAttribute("time", result.run ? result.run->wall_time : 0.0);
+    if (result.error) {
       ++errors;
       auto* element = test->InsertNewChildElement("error");
-      element->SetAttribute("type", result["error"].value("code", "").c_str());
-      element->SetAttribute("message", result["error"].value("message", "").c_str());
-    } else if (result.value("verdict", "") != "held") {
+      element->SetAttribute("type", result.error->code.c_str());
+      element->SetAttribute("message", result.error->message.c_str());
+    } else if (result.judged.verdict != Verdict::held) {
       ++failures;
       auto* element = test->InsertNewChildElement("failure");
       std::string message;
-      for (const auto& line : result.value("missed", nlohmann::json::array()))
-        message += (message.empty() ? "" : "; ") + line.get<std::string>();
+      for (const auto& line : result.judged.missed) message += (message.empty() ? "" : "; ") + line;
       element->SetAttribute("message", message.c_str());
     }
   }

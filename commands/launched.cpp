@@ -12,11 +12,12 @@
 #include <optional>
 
 #include "commands/children.hpp"
-#include "commands/progress.hpp"
 #include "commands/warnings.hpp"
 #include "loop/inputs.hpp"
-#include "loop/keep.hpp"
-#include "loop/result.hpp"
+#include "processes/command_line.hpp"
+#include "processes/keep.hpp"
+#include "processes/report_line.hpp"
+#include "report/progress.hpp"
 #include "runtime/bus/log_writer.hpp"
 #include "runtime/bus/multicast_route.hpp"
 #include "runtime/clock/clock.hpp"
@@ -35,7 +36,7 @@ constexpr auto kGrace = 3s;
 class Run {
  public:
   Run(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
-      const std::function<void(const nlohmann::json&)>& at_end, std::int64_t ticks)
+      const std::function<void(const Result&)>& at_end, std::int64_t ticks)
       : launch_(launch), stop_(stop), at_end_(at_end), progress_(experiment.name, ticks, experiment.rate_hz) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
@@ -53,7 +54,7 @@ class Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  nlohmann::json wait() {
+  Result wait() {
     while (
         std::any_of(children_.begin(), children_.end(), [](const Child& child) { return child.running(); })) {
       wait_for_news();
@@ -116,12 +117,12 @@ class Run {
       reported_.append(buffer, static_cast<std::size_t>(size));
     }
     for (std::size_t end = reported_.find('\n'); end != std::string::npos; end = reported_.find('\n')) {
-      const auto line = nlohmann::json::parse(reported_.substr(0, end), nullptr, false);
+      Reported line = reported_in(reported_.substr(0, end));
       reported_.erase(0, end + 1);
-      if (line.contains("keeping")) keeping_ = true;
-      if (line.contains("tick") && !launch_.quiet) progress_.at(line["tick"].get<std::int64_t>() / 64 * 64);
-      if (line.contains("result")) {
-        result_ = line["result"];
+      if (line.keeping) keeping_ = true;
+      if (line.tick && !launch_.quiet) progress_.at(*line.tick / 64 * 64);
+      if (line.result) {
+        result_ = std::move(line.result);
         keeping_ = false;
         if (deadline_) deadline_ = now() + kGrace;
         progress_.clear();
@@ -178,18 +179,17 @@ class Run {
     deadline_ = now() + kGrace;
   }
 
-  nlohmann::json verdict() {
+  Result verdict() {
     if (first_failure_) throw_failure(*first_failure_);
     for (const auto& child : children_)
       if (child.name() == "plant" && !result_) throw_failure(child);
     for (const auto& child : children_)
-      if (child.name() == "plant" && child.exit_status() == kRunFault && !result_->contains("diverged_at") &&
-          !result_->contains("safe_at"))
+      if (child.name() == "plant" && child.exit_status() == kRunFault &&
+          !result_->run->measures.diverged_at && !result_->run->measures.safe_at)
         throw_failure(child);
-    if (!result_)
-      return {{"verdict", stopped_ ? "interrupted" : "held"},
-              {"exit_status", stopped_ ? kInterrupted : kHeld}};
-    return *result_;
+    if (result_) return *result_;
+    if (stopped_) return {.judged = {.verdict = Verdict::interrupted, .exit_status = kInterrupted}};
+    return {};
   }
 
   [[noreturn]] static void throw_failure(const Child& child) {
@@ -204,14 +204,14 @@ class Run {
 
   const Launch& launch_;
   const StopSwitch& stop_;
-  const std::function<void(const nlohmann::json&)>& at_end_;
+  const std::function<void(const Result&)>& at_end_;
   Progress progress_;
   std::vector<Child> children_;
   int report_ = -1;
   bool reported_all_ = false;
   std::string reported_;
   bool keeping_ = false;  ///< the plant is writing its results
-  std::optional<nlohmann::json> result_;
+  std::optional<Result> result_;
   const Child* first_failure_ = nullptr;
   bool stopped_ = false;  ///< by the user
   bool stopping_ = false;
@@ -221,8 +221,8 @@ class Run {
 
 }  // namespace
 
-nlohmann::json launched(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
-                        const std::function<void(const nlohmann::json&)>& at_end) {
+Result launched(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
+                const std::function<void(const Result&)>& at_end) {
   // Everything that can be refused is refused here, before a process is started.
   if (experiment.plant.continuous)
     throw InputError("out_of_range", {launch.experiment},
@@ -237,17 +237,16 @@ nlohmann::json launched(const Experiment& experiment, const Launch& launch, cons
   // The programs are compiled once, not by each process.
   say_complaint(make_plant(experiment, plan).equations().complaint());
   say_complaint(make_controller(experiment).equations().complaint());
-  const nlohmann::json warnings = warnings_of(experiment, plan, launch.quiet);
+  auto warnings = warnings_of(experiment, plan, launch.quiet);
 
   std::optional<LogWriter> log;
   if (!launch.out.empty()) log.emplace(launch.bus, std::filesystem::path(launch.out) / "run.lcmlog");
   Run run(experiment, launch, stop, at_end, plan.ticks());
-  nlohmann::json result = run.wait();
-  result["warnings"] = warnings;
+  Result result = run.wait();
+  result.warnings = std::move(warnings);
   if (log) {
     const LogSummary summary = log->finish();
-    result["log"] = {
-        {"file", "run.lcmlog"}, {"events", summary.events}, {"missing_ticks", summary.missing_ticks}};
+    result.log = {.file = "run.lcmlog", .events = summary.events, .missing_ticks = summary.missing_ticks};
   }
   return result;
 }

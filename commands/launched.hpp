@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "loop/experiment.hpp"
+#include "loop/result.hpp"
 #include "runtime/bus/bus.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 
@@ -35,7 +35,7 @@ struct Launch {
 /// words, and InputError where the experiment is bad input or can't be run over the bus. `stop` ends the run
 /// in order: the partial result is returned. With `hold`, `at_end` is called with the result when the path is
 /// over.
-nlohmann::json launched(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
-                        const std::function<void(const nlohmann::json&)>& at_end = {});
+Result launched(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
+                const std::function<void(const Result&)>& at_end = {});
 
 }  // namespace mixloop

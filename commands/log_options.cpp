@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands/log_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "notation/errors.hpp"
 
 namespace mixloop {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+
 #include "commands/commands.hpp"
 #include "processes/command_line.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What happens on the bus, in a terminal.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdlib>
 
@@ -31,10 +32,9 @@ nanoseconds nanoseconds_of(double seconds) { return nanoseconds(static_cast<std:
 class Listener {
  public:
   Listener(Bus& bus, Watch& watch) {
-    for (const Channel channel : kChannels) {
-      Ear& ear = ears_[static_cast<std::size_t>(channel)];
-      ear = {&watch, channel};
-      bus.subscribe<&Ear::hear>(bus.channel(name_of(channel)), &ear);
+    for (std::size_t i = 0; i < ears_.size(); ++i) {
+      ears_[i] = {&watch, static_cast<Channel>(i)};
+      bus.subscribe<&Ear::hear>(bus.channel(kChannelNames[i]), &ears_[i]);
     }
   }
 
@@ -44,7 +44,7 @@ class Listener {
     Channel channel{};
     void hear(Bytes bytes) { watch->take(channel, bytes, now()); }
   };
-  std::array<Ear, kChannels.size()> ears_;
+  std::array<Ear, kChannelNames.size()> ears_;
 };
 
 Watch make_watch(const Options& options) {
@@ -123,15 +123,11 @@ void add_monitor_command(CLI::App& app, int& status) {
   add_common_options(*command, *options);
   command->add_flag("--once", options->once,
                     "print what was heard in --seconds and leave; --json does so too");
-  command
-      ->add_option("--seconds", options->seconds,
-                   "to listen with --once or --json, from the first STATE on, or to the run's end; 1")
-      ->type_name("S")
-      ->check(CLI::Range(0.05, 86400.0));
-  command
-      ->add_option("--patience", options->patience, "seconds to wait for a plant with --once or --json, 10")
-      ->type_name("S")
-      ->check(CLI::Range(0.05, 3600.0));
+  add_seconds_option(*command, "--seconds", options->seconds,
+                     "to listen with --once or --json, from the first STATE on, or to the run's end; 1",
+                     86400);
+  add_seconds_option(*command, "--patience", options->patience,
+                     "seconds to wait for a plant with --once or --json, 10");
   command->add_flag("--no-colour", options->no_colour, "without colours, as with NO_COLOR set");
   add_bus_options(*command, options->bus);
   command->footer(

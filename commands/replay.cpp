@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A log's states and references through the controller again: does it command the same bytes?
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <map>
 
 #include "commands/commands.hpp"
-#include "commands/progress.hpp"
 #include "loop/result.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/controller_side.hpp"
+#include "report/progress.hpp"
 #include "runtime/bus/log_reader.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
+#include "watch/tick_assembly.hpp"
 
 namespace mixloop {
 namespace {
@@ -35,58 +37,57 @@ class Replay {
   Replay(const Experiment& experiment, const Plan& plan, const std::string& prefix)
       : controller_(make_guarded_controller(experiment)),
         side_(controller_side(controller_, experiment, plan)),
-        config_(config_of(common_ground(experiment))),
         states_(experiment.scene->n()),
         references_(experiment.scene->n()),
         commands_(experiment.scene->n()),
         again_(experiment.scene->n()),
-        names_{prefix + "STATE", prefix + "REFERENCE", prefix + "COMMAND"} {
+        names_{prefix + "STATE", prefix + "REFERENCE", prefix + "COMMAND"},
+        ticks_({.behind = std::max(TickAssembly::kBehind, farthest_extrapolated(experiment) + 1),
+                .config = config_of(common_ground(experiment))}) {
     say_complaint(controller_.law().equations().complaint());
   }
 
   void take(const LogEvent& event) {
-    if (event.channel == names_[0]) keep(states_, state_of_, event.data);
-    if (event.channel == names_[1]) keep(references_, reference_of_, event.data);
+    if (event.channel == names_[0]) keep(states_, event.data);
+    if (event.channel == names_[1]) keep(references_, event.data);
     if (event.channel == names_[2]) compare(event.data);
   }
   const Replayed& result() const { return result_; }
 
  private:
-  static constexpr std::size_t kKept = 256;  // ticks
+  static std::int64_t farthest_extrapolated(const Experiment& experiment) {
+    return std::min<std::int64_t>(experiment.deadline.max_missed, kFarthestExtrapolated);
+  }
 
   template <class Message>
-  void keep(Inbox<Message>& inbox, std::map<std::int64_t, Message>& by_tick, Bytes bytes) {
-    if (inbox.read(bytes) || inbox.message.config != config_) return;
-    if (inbox.message.session != session_) {
-      session_ = inbox.message.session;
-      state_of_.clear();
-      reference_of_.clear();
-      latest_ = -1;
-    }
-    by_tick[inbox.message.seq] = inbox.message;
-    if (by_tick.size() > kKept) by_tick.erase(by_tick.begin());
+  void keep(Inbox<Message>& inbox, Bytes bytes) {
+    if (inbox.read(bytes) || ticks_.add(inbox.message) != Taken::other_session) return;
+    // A log may begin with the reference to a tick whose state comes later.
+    ticks_.begin(inbox.message.session, inbox.message.seq - TickAssembly::kAhead);
+    ticks_.add(inbox.message);
+    latest_ = -1;
   }
 
   void compare(Bytes bytes) {
     if (commands_.read(bytes)) return;
     const command_t& logged = commands_.message;
-    if (logged.session != session_ || logged.config != config_ || logged.seq <= latest_) return;
-    const auto state = state_of_.find(logged.seq);
-    const auto reference = reference_of_.find(logged.seq - extrapolated_by(logged.flags));
+    const Taken taken = ticks_.add(logged);
+    if (taken == Taken::other_session || taken == Taken::other_config || logged.seq <= latest_) return;
+    const auto* state = ticks_.find<state_t>(logged.seq);
+    const auto* reference = ticks_.find<reference_t>(logged.seq - extrapolated_by(logged.flags));
     const bool of_the_law = (logged.flags & command_t::FLAG_WITHOUT_REFERENCE) == 0;
-    if (latest_ < 0 && state != state_of_.end()) side_.begin(state->second);
+    if (latest_ < 0 && state) side_.begin(*state);
     latest_ = logged.seq;
-    if (state == state_of_.end() || (of_the_law && reference == reference_of_.end())) {
+    if (!state || (of_the_law && !reference)) {
       ++result_.without_inputs;
       return;
     }
     command_t& again = again_.message;
     set_header(again, header_of(logged));
-    again.utime = state->second.utime;
+    again.utime = state->utime;
     const std::int32_t of_the_peer = std::int32_t{command_t::FLAG_JOINED_LATE} | command_t::FLAG_STOPPED |
                                      command_t::FLAG_WITHOUT_REFERENCE | command_t::FLAG_AFTERWARDS;
-    again.flags =
-        (logged.flags & of_the_peer) | answer(state->second, of_the_law ? &reference->second : nullptr);
+    again.flags = (logged.flags & of_the_peer) | answer(*state, of_the_law ? reference : nullptr);
     if ((logged.flags & command_t::FLAG_AFTERWARDS) != 0) again.flags |= make_safe();
     const Bytes encoded = again_.encode();
     ++result_.commands;
@@ -111,15 +112,13 @@ class Replay {
 
   GuardedController controller_;
   ControllerSide side_;
-  std::int64_t config_;
   Inbox<state_t> states_;
   Inbox<reference_t> references_;
   Inbox<command_t> commands_;
   Outbox<command_t> again_;
   std::array<std::string, 3> names_;
-  std::map<std::int64_t, state_t> state_of_;
-  std::map<std::int64_t, reference_t> reference_of_;
-  std::int64_t session_ = 0, latest_ = -1;
+  TickAssembly ticks_;
+  std::int64_t latest_ = -1;
   Replayed result_;
 };
 
@@ -170,9 +169,7 @@ int run(const Options& options) {
 void add_replay_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("replay", "a log's states and references through the controller again");
-  command->add_option("experiment", options->experiment, "the experiment file")
-      ->required()
-      ->type_name("EXPERIMENT");
+  add_experiment_option(*command, options->experiment);
   command->add_option("log", options->log, "an LCM log, as run --out keeps it or lcm-logger writes it")
       ->required()
       ->type_name("LOG");

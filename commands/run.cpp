@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include <fstream>
+#include <CLI/CLI.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/launched.hpp"
-#include "loop/keep.hpp"
-#include "loop/result.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/keep.hpp"
+#include "processes/result_json.hpp"
 #include "processes/speed.hpp"
+#include "processes/summary.hpp"
 #include "runtime/protocol/real_time_plant.hpp"
 
 namespace mixloop {
@@ -19,22 +19,6 @@ struct Options : CommonOptions {
   Launch launch;
   bool lockstep = false;
 };
-
-void print_bus(const nlohmann::json& result) {
-  if (!result.contains("round_trip_p50")) return;
-  if (result.contains("overruns"))
-    fmt::print(
-        "  commands         {} missed ({} in a row at most), {:.0f} % of the last 100 in time\n"
-        "  wake-up          p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; plant time slipped {} times, by "
-        "{:.6f} s\n",
-        result["missed_deadlines"].get<std::int64_t>(), result["longest_miss"].get<std::int64_t>(),
-        result["success_last_100"].get<double>() * 100, result.value("wake_up_p50", 0.0) * 1e6,
-        result.value("wake_up_p99", 0.0) * 1e6, result.value("wake_up_max", 0.0) * 1e6,
-        result["overruns"].get<std::int64_t>(), result["slipped"].get<double>());
-  fmt::print("  round trip       p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; {} states sent again\n",
-             result["round_trip_p50"].get<double>() * 1e6, result["round_trip_p99"].get<double>() * 1e6,
-             result["round_trip_max"].get<double>() * 1e6, result["resent"].get<std::int64_t>());
-}
 
 int run(Options& options) {
   StopSwitch stop;
@@ -48,16 +32,15 @@ int run(Options& options) {
   }
   Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
   experiment.evaluation = launch.evaluation;
-  const auto print = [&](const nlohmann::json& result) {
+  const auto print = [&](const Result& result) {
     if (options.json) return;
-    fmt::print("{}", summary(experiment, result));
-    print_bus(result);
+    fmt::print("{}{}", summary(experiment, result), bus_summary(result));
     if (!launch.out.empty()) fmt::print("  kept in {}\n", launch.out);
     std::fflush(stdout);
   };
   bool printed = false;
-  const auto at_end = [&](const nlohmann::json& result) {
-    if (!launch.hold || options.json || result.contains("interrupted_at")) return;
+  const auto at_end = [&](const Result& result) {
+    if (!launch.hold || options.json || result.run->measures.interrupted_at) return;
     print(result);
     printed = true;
     fmt::print(
@@ -67,14 +50,13 @@ int run(Options& options) {
         getpid());
     std::fflush(stdout);
   };
-  const nlohmann::json result = launched(experiment, launch, stop, at_end);
-  if (!launch.out.empty())
-    std::ofstream(std::filesystem::path(launch.out) / "result.json") << result.dump(2) << '\n';
+  const Result result = launched(experiment, launch, stop, at_end);
+  if (!launch.out.empty()) keep_result(launch.out, result);
   if (options.json)
-    print_json(result);
+    print_json(json_of(result));
   else if (!printed)
     print(result);
-  return result.at("exit_status").get<int>();
+  return result.judged.exit_status;
 }
 
 }  // namespace
@@ -83,9 +65,7 @@ void add_run_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   Launch& launch = options->launch;
   auto* command = app.add_subcommand("run", "the three processes over LCM: launches them, waits, summarises");
-  command->add_option("experiment", launch.experiment, "the experiment file")
-      ->required()
-      ->type_name("EXPERIMENT");
+  add_experiment_option(*command, launch.experiment);
   add_common_options(*command, *options);
   add_bus_options(*command, launch.bus);
   auto* lockstep =
@@ -110,10 +90,8 @@ void add_run_command(CLI::App& app, int& status) {
       ->type_name("A,B,C");
   command->add_option("--out", launch.out, "keep result.json, trajectory.csv and the LCM log in this folder")
       ->type_name("DIR");
-  command
-      ->add_option("--patience", launch.patience, "seconds without an answer after which a peer is lost, 10")
-      ->type_name("S")
-      ->check(CLI::Range(0.05, 3600.0));
+  add_seconds_option(*command, "--patience", launch.patience,
+                     "seconds without an answer after which a peer is lost, 10");
   add_evaluation_option(*command, launch.evaluation);
   command->footer(
       "LCM needs a multicast route; tools/in-namespace gives a command a network of its own that has one.\n"

@@ -2,25 +2,27 @@
 #include "loop/simulate.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
 #include "commands/commands.hpp"
-#include "commands/progress.hpp"
 #include "commands/simulated.hpp"
 #include "commands/warnings.hpp"
 #include "loop/arrivals.hpp"
 #include "loop/arrivals_file.hpp"
-#include "loop/keep.hpp"
-#include "loop/result.hpp"
 #include "processes/command_line.hpp"
+#include "processes/keep.hpp"
+#include "processes/result_json.hpp"
+#include "processes/summary.hpp"
+#include "report/progress.hpp"
 #include "runtime/clock/clock.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 
-nlohmann::json simulated(Experiment loaded, const std::string& out, const StopSwitch& stop, bool quiet,
-                         const std::string& ages) {
+Result simulated(Experiment loaded, const std::string& out, const StopSwitch& stop, bool quiet,
+                 const std::string& ages) {
   if (loaded.plant.continuous && !ages.empty())
     throw InputError("out_of_range", {"--ages"},
                      "plant.control is 'continuous', which no run in real time has; expected 'held'");
@@ -30,10 +32,10 @@ nlohmann::json simulated(Experiment loaded, const std::string& out, const StopSw
       std::any_of(arrivals.interventions.begin(), arrivals.interventions.end(), is_fault);
   const Plan plan = make_plan(loaded);
   const Experiment experiment = with_integrator_settled(loaded, plan);
-  const nlohmann::json warnings = warnings_of(experiment, plan, quiet);
+  const auto warnings = warnings_of(experiment, plan, quiet);
   if (!out.empty()) prepare_folder(out);
-  Recorder recorder(experiment, plan);
-  say_complaint(recorder.equations().complaint());
+  RecordedPlant plant(experiment, plan);
+  say_complaint(plant.plant().equations().complaint());
   Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);
   const Instant start = now();
   const auto go_on = [&](std::int64_t k) {
@@ -41,13 +43,13 @@ nlohmann::json simulated(Experiment loaded, const std::string& out, const StopSw
     return !stop.turned();
   };
   if (ages.empty())
-    simulate(experiment, plan, recorder, go_on);
+    simulate(plant, go_on);
   else
-    simulate_arrivals(experiment, plan, arrivals, recorder, go_on);
+    simulate_arrivals(plant, arrivals, go_on);
   const double wall_time = std::chrono::duration<double>(now() - start).count();
-  auto result = result_json(experiment, recorder.measures(), "simulate", wall_time);
-  result["warnings"] = warnings;
-  if (!out.empty()) keep(out, experiment, plan, recorder, result);
+  Result result = result_of(experiment, plant.recorder().measures(), "simulate", wall_time);
+  result.warnings = warnings;
+  if (!out.empty()) keep(out, plant, result);
   return result;
 }
 
@@ -65,13 +67,13 @@ int run(const Options& options) {
   stop.turn_on_signals();
   Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
   experiment.evaluation = options.evaluation;
-  const auto result = simulated(experiment, options.out, stop, options.json, options.ages);
+  const Result result = simulated(experiment, options.out, stop, options.json, options.ages);
   if (options.json)
-    print_json(result);
+    print_json(json_of(result));
   else
     fmt::print("{}{}", summary(experiment, result),
                options.out.empty() ? "" : "  kept in " + options.out + "\n");
-  return result.at("exit_status").get<int>();
+  return result.judged.exit_status;
 }
 
 }  // namespace
@@ -79,9 +81,7 @@ int run(const Options& options) {
 void add_simulate_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("simulate", "the closed loop in one process, as fast as it goes");
-  command->add_option("experiment", options->experiment, "the experiment file")
-      ->required()
-      ->type_name("EXPERIMENT");
+  add_experiment_option(*command, options->experiment);
   add_common_options(*command, *options);
   command->add_option("--out", options->out, "keep result.json and trajectory.csv in this folder")
       ->type_name("DIR");

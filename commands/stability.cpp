@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
@@ -248,9 +250,7 @@ int run(const Options& options) {
 void add_stability_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("stability", "where the sampled loop is stable, and its margins");
-  command->add_option("experiment", options->experiment, "the experiment file")
-      ->required()
-      ->type_name("EXPERIMENT");
+  add_experiment_option(*command, options->experiment);
   add_common_options(*command, *options);
   command
       ->add_option(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -8,8 +9,8 @@
 #include "commands/junit.hpp"
 #include "commands/launched.hpp"
 #include "commands/simulated.hpp"
-#include "loop/result.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/result_json.hpp"
 
 namespace mixloop {
 namespace {
@@ -24,17 +25,24 @@ struct Options : CommonOptions {
 };
 
 /// As `track` sees it: a divergence that was expected is held.
-int exit_status(const nlohmann::json& result) {
-  if (result.contains("error")) return result.at("error_status").get<int>();
-  const std::string verdict = result.at("verdict");
-  return verdict == "held"         ? kHeld
-         : verdict == "missed"     ? kMissed
-         : verdict == "diverged"   ? kRunFault
-         : verdict == "safe_state" ? kRunFault
-                                   : kInterrupted;
+int exit_status(const Result& result) {
+  if (!result.run) return result.judged.exit_status;
+  switch (result.judged.verdict) {
+    case Verdict::held:
+      return kHeld;
+    case Verdict::missed:
+      return kMissed;
+    case Verdict::diverged:
+    case Verdict::safe_state:
+      return kRunFault;
+    case Verdict::interrupted:
+    case Verdict::fault:
+      break;
+  }
+  return kInterrupted;
 }
 
-nlohmann::json tracked(const std::string& file, const Options& options, const StopSwitch& stop) {
+Result tracked(const std::string& file, const Options& options, const StopSwitch& stop) {
   Experiment experiment = load_experiment(std::filesystem::path(file), options.overrides());
   experiment.evaluation = options.evaluation;
   const auto patience = nanoseconds(static_cast<std::int64_t>(options.patience * 1e9));
@@ -50,12 +58,12 @@ nlohmann::json tracked(const std::string& file, const Options& options, const St
   return launched(experiment, launch, stop);
 }
 
-nlohmann::json tracked_or_error(const std::string& file, const Options& options, const StopSwitch& stop) {
+Result tracked_or_error(const std::string& file, const Options& options, const StopSwitch& stop) {
   const auto error = [&](const std::string& code, const std::string& message, const Place& place,
-                         int status) -> nlohmann::json {
-    return {{"experiment", std::filesystem::path(file).stem().string()},
-            {"error", {{"code", code}, {"message", message}, {"where", to_string(place)}}},
-            {"error_status", status}};
+                         int status) -> Result {
+    return {.experiment = std::filesystem::path(file).stem().string(),
+            .judged = {.verdict = Verdict::fault, .exit_status = status},
+            .error = {{.code = code, .message = message, .where = to_string(place)}}};
   };
   try {
     return tracked(file, options, stop);
@@ -66,28 +74,26 @@ nlohmann::json tracked_or_error(const std::string& file, const Options& options,
   }
 }
 
-void print_line(const nlohmann::json& result) {
-  const std::string name = result.at("experiment");
-  if (result.contains("error")) {
-    const std::string where = result["error"]["where"];
-    fmt::print("error        {:<28} {}{}{}\n", name, where, where.empty() ? "" : ": ",
-               result["error"]["message"].get<std::string>());
+void print_line(const Result& result) {
+  if (const auto& error = result.error; error && !result.run) {
+    fmt::print("error        {:<28} {}{}{}\n", result.experiment, error->where,
+               error->where.empty() ? "" : ": ", error->message);
     return;
   }
-  std::string text =
-      result.contains("diverged_at")
-          ? fmt::format("diverged at {:.6g} s", result["diverged_at"].get<double>())
-          : fmt::format("max {:.7f} mm, final {:.7f} mm", result["max_position_error"].get<double>() * 1e3,
-                        result["final_position_error"].get<double>() * 1e3);
-  for (const auto& line : result.at("missed")) text += "; " + line.get<std::string>();
-  fmt::print("{:<12} {:<28} {}\n", result.at("verdict").get<std::string>(), name, text);
+  const Measures& measures = result.run->measures;
+  std::string text = measures.diverged_at
+                         ? fmt::format("diverged at {:.6g} s", *measures.diverged_at)
+                         : fmt::format("max {:.7f} mm, final {:.7f} mm", measures.max_position_error * 1e3,
+                                       measures.final_position_error * 1e3);
+  for (const auto& line : result.judged.missed) text += "; " + line;
+  fmt::print("{:<12} {:<28} {}\n", name_of(result.judged.verdict), result.experiment, text);
   std::fflush(stdout);
 }
 
 int run(const Options& options) {
   StopSwitch stop;
   stop.turn_on_signals();
-  auto results = nlohmann::json::array();
+  std::vector<Result> results;
   int highest = kHeld;
   for (const auto& file : options.experiments) {
     if (stop.turned()) break;
@@ -97,7 +103,11 @@ int run(const Options& options) {
   }
   if (stop.turned()) highest = kInterrupted;
   if (!options.junit.empty()) write_junit(options.junit, results);
-  if (options.json) print_json({{"results", results}});
+  if (options.json) {
+    auto list = nlohmann::json::array();
+    for (const Result& result : results) list.push_back(json_of(result));
+    print_json({{"results", list}});
+  }
   return highest;
 }
 
@@ -117,9 +127,8 @@ void add_track_command(CLI::App& app, int& status) {
   command->add_flag("--attach", options->attach, "listen to processes that are already running")
       ->excludes(over_bus);
   command->add_option("--junit", options->junit, "write a JUnit report to this file")->type_name("FILE");
-  command->add_option("--patience", options->patience, "seconds without a plant after which it is lost, 10")
-      ->type_name("S")
-      ->check(CLI::Range(0.05, 3600.0));
+  add_seconds_option(*command, "--patience", options->patience,
+                     "seconds without a plant after which it is lost, 10");
   add_bus_options(*command, options->bus);
   add_evaluation_option(*command, options->evaluation);
   command->footer(

@@ -7,7 +7,7 @@
 
 namespace mixloop {
 
-nlohmann::json warnings_of(const Experiment& experiment, const Plan& plan, bool quiet) {
+std::vector<std::string> warnings_of(const Experiment& experiment, const Plan& plan, bool quiet) {
   std::vector<std::string> warnings = experiment.scene->warnings;
   for (auto& warning : stability_warnings(experiment, plan)) warnings.push_back(std::move(warning));
   if (!quiet)

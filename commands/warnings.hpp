@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "loop/experiment.hpp"
 
@@ -9,6 +10,6 @@ namespace mixloop {
 
 /// What is doubtful about an experiment though it can be run, a sentence each: its scene's numbers, its
 /// stability. Said on stderr unless `quiet`; results keep it as `warnings`.
-nlohmann::json warnings_of(const Experiment& experiment, const Plan& plan, bool quiet);
+std::vector<std::string> warnings_of(const Experiment& experiment, const Plan& plan, bool quiet);
 
 }  // namespace mixloop

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "controller/feedback.hpp"
 
-#include <Eigen/LU>
+#include "dynamics/procedure/decompositions.hpp"
 
 namespace mixloop {
 
@@ -21,8 +21,8 @@ InverseDynamicsSlope inverse_dynamics_slope(Equations::Workspace& dynamics, cons
                                             const Vector& psid, const Vector& psidd, double t) {
   const auto n = psi.size();
   const Matrix slopes = forward_dynamics_slopes(dynamics, psi, psid, psidd, t);
-  const Eigen::PartialPivLU<Matrix> inverse_mass(slopes.rightCols(n));
-  return {-inverse_mass.solve(slopes.leftCols(n)), -inverse_mass.solve(slopes.middleCols(n, n))};
+  const Matrix by_state = solved(slopes.rightCols(n), slopes.leftCols(2 * n));
+  return {-by_state.leftCols(n), -by_state.rightCols(n)};
 }
 
 Feedback feedback(const ControllerSettings& settings, Equations::Workspace& model, const Reference& reference,

@@ -23,9 +23,10 @@ struct IntegratorSettings {
   double local_error = 0;  ///< above 0: the method chooses its steps to keep this error (error_size) in each
 };
 
-/// One method with its workspace, advancing states (q, v, rest) over pieces on which nothing jumps. Each
-/// piece starts afresh: the result depends on the state and the piece alone. Nothing allocates after
-/// construction.
+/// One method with its workspace, on any scalar, advancing states (q, v, rest) over pieces on which nothing
+/// jumps. Each piece starts afresh: the result depends on the state and the piece alone. Nothing allocates
+/// after construction.
+template <class T = double>
 class Integrator {
  public:
   /// At most so many steps in a piece under error control; what would take more becomes not a number.
@@ -41,18 +42,17 @@ class Integrator {
   /// (stage 0 and up; -1 under error control); `linearise(t, x, jacobian)` is called by methods that take a
   /// Jacobian.
   template <class Rate, class Linearise>
-  void advance(Vector& x, double length, const Rate& rate, const Linearise& linearise) {
+  void advance(Vec<T>& x, double length, const Rate& rate, const Linearise& linearise) {
     std::visit([&](auto& method) { run(method, x, length, rate, linearise); }, steps_);
   }
 
  private:
-  using Any = std::variant<SemiImplicitEuler<double>, Leapfrog<double>, Rk4<double>, DormandPrince<double>,
-                           Dop853<double>, Gauss<double, 4>, Rodas3<double>, Rodas4<double>>;
+  using Any = std::variant<SemiImplicitEuler<T>, Leapfrog<T>, Rk4<T>, DormandPrince<T>, Dop853<T>,
+                           Gauss<T, 4>, Rodas3<T>, Rodas4<T>>;
   template <class M>
-  static constexpr bool kLinearises = std::is_same_v<M, Rodas3<double>> || std::is_same_v<M, Rodas4<double>>;
+  static constexpr bool kLinearises = std::is_same_v<M, Rodas3<T>> || std::is_same_v<M, Rodas4<T>>;
   template <class M>
-  static constexpr bool kEstimates =
-      std::is_same_v<M, DormandPrince<double>> || std::is_same_v<M, Dop853<double>>;
+  static constexpr bool kEstimates = std::is_same_v<M, DormandPrince<T>> || std::is_same_v<M, Dop853<T>>;
 
   template <std::size_t I = 0>
   static Any make(Method method, Eigen::Index n, Eigen::Index size) {
@@ -62,29 +62,29 @@ class Integrator {
   }
 
   template <class M, class Rate, class Linearise>
-  void run(M& method, Vector& x, double length, const Rate& rate, const Linearise& linearise) {
+  void run(M& method, Vec<T>& x, double length, const Rate& rate, const Linearise& linearise) {
     method.begin();
     if constexpr (kEstimates<M>) {
       if (settings_.local_error > 0) return run_controlled(method, x, length, rate);
     }
-    const double h = length / settings_.substeps;
+    const T h = T(length) / settings_.substeps;
     for (int step = 0; step < settings_.substeps; ++step) {
-      const auto at = [&](int stage, double c, const Vector& state, Vector& dx) {
+      const auto at = [&](int stage, const T& c, const Vec<T>& state, Vec<T>& dx) {
         rate(step, stage, (step + c) * h, state, dx);
       };
       if constexpr (kLinearises<M>)
         method.step(x, h, at,
-                    [&](const Vector& state, auto& jacobian) { linearise(step * h, state, jacobian); });
+                    [&](const Vec<T>& state, auto& jacobian) { linearise(step * h, state, jacobian); });
       else
         method.step(x, h, at);
     }
   }
 
   template <class M, class Rate>
-  void run_controlled(M& method, Vector& x, double length, const Rate& rate) {
-    const auto at = [&](double t, const Vector& state, Vector& dx) { rate(0, -1, t, state, dx); };
-    if (!controlled_steps(method, x, n_, length, settings_.local_error, kMostSteps, at).finished)
-      x.setConstant(std::numeric_limits<double>::quiet_NaN());
+  void run_controlled(M& method, Vec<T>& x, double length, const Rate& rate) {
+    const auto at = [&](const T& t, const Vec<T>& state, Vec<T>& dx) { rate(0, -1, t, state, dx); };
+    if (!controlled_steps(method, x, n_, T(length), T(settings_.local_error), kMostSteps, at).finished)
+      x.setConstant(T(std::numeric_limits<double>::quiet_NaN()));
   }
 
   IntegratorSettings settings_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "loop/arrivals.hpp"
 
-#include "loop/measured_state.hpp"
 #include "loop/simulate.hpp"
 
 namespace mixloop {
@@ -26,7 +25,7 @@ class Commands {
   }
 
   /// Ticks in their order. A state that was never answered did nothing: limits that remember know none of it.
-  void compute(std::int64_t k, const MeasuredState& state) {
+  void compute(std::int64_t k, const RecordedPlant::Measured& state) {
     while (next_ != end_ && next_->command < k) ++next_;
     if (next_ == end_ || next_->command != k) return;
     if (next_->ahead != Arrival::kBlind) go_by_law(k, next_->ahead, state);
@@ -34,11 +33,11 @@ class Commands {
   }
 
  private:
-  void go_by_law(std::int64_t k, std::int64_t ahead, const MeasuredState& state) {
+  void go_by_law(std::int64_t k, std::int64_t ahead, const RecordedPlant::Measured& state) {
     const Reference reference =
         ahead == 0 ? plan_.at(k) : later_.take(plan_.at(k - ahead), static_cast<double>(ahead) / rate_hz_);
     const double t = static_cast<double>(k) / rate_hz_;
-    controller_.torque(state.psi(), state.psid(), state.stale(), reference, t, at(k));
+    controller_.torque(state.psi, state.psid, state.stale, reference, t, at(k));
   }
 
   const Plan& plan_;
@@ -52,33 +51,26 @@ class Commands {
 
 }  // namespace
 
-void simulate_arrivals(const Experiment& experiment, const Plan& plan, const Arrivals& arrivals,
-                       Recorder& recorder, const std::function<bool(std::int64_t k)>& go_on) {
-  DeadlinePlant hardware = make_deadline_plant(experiment, plan);
-  Plant& plant = hardware.plant();
-  MeasuredState measured(plant);
-  Commands commands(experiment, plan, arrivals.commands);
-  require_start(commands.controller(), plant.psi(), plan);
+void simulate_arrivals(RecordedPlant& run, const Arrivals& arrivals,
+                       const std::function<bool(std::int64_t k)>& go_on) {
+  const Plan& plan = run.plan();
+  Commands commands(run.experiment(), plan, arrivals.commands);
+  require_start(commands.controller(), run.plant().psi(), plan);
   auto next = arrivals.commands.begin();
   auto event = arrivals.interventions.begin();
+  std::vector<Fault> faults;
+  const auto before_end = [&](std::int64_t k) { return k < plan.ticks(); };
 
-  if (!recorder.state(0, plant.psi(), plant.psid(), plant.work())) return;
+  if (!run.begin()) return;
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
-    if (!go_on(k)) return recorder.interrupted();
-    measured.take(plant);
-    commands.compute(k, measured);
-    const bool was_safe = hardware.safe().has_value();
+    if (!go_on(k)) return run.recorder().interrupted();
+    commands.compute(k, run.measure());
+    faults.clear();
     for (; event != arrivals.interventions.end() && event->tick <= k; ++event)
-      event->cause != nullptr ? hardware.make_safe(event->cause) : void(hardware.inject(event->fault));
-    recorder.note_changes(k, plant.faults());
+      event->cause != nullptr ? run.make_safe(event->cause) : faults.push_back(event->fault);
     for (; next != arrivals.commands.end() && next->tick == k; ++next)
-      hardware.command(*next, commands.at(next->command));
-    const bool is_safe = hardware.safe().has_value();
-    if (!was_safe && is_safe) recorder.made_safe(k);
-    hardware.finish_tick();
-    if (!is_safe && hardware.safe()) recorder.made_safe(k + 1);
-    if (!recorder.command(k, hardware.commanded(), plant.applied())) return;
-    if (k < plan.ticks() && !recorder.state(k + 1, plant.psi(), plant.psid(), plant.work())) return;
+      run.command(*next, commands.at(next->command));
+    if (!run.real_time_tick(faults, before_end)) return;
   }
 }
 

@@ -21,7 +21,7 @@ constexpr NamedMeasure kErrors[] = {{"max_position_error", &Measures::max_positi
 }  // namespace
 
 double Expectation::Bound::value_in(const Measures& measures) const {
-  if (motor >= 0) return measures.max_torque[motor];
+  if (motor) return measures.max_torque[*motor];
   for (const auto& known : kErrors)
     if (name == known.name) return measures.*known.value;
   return std::numeric_limits<double>::quiet_NaN();
@@ -40,7 +40,8 @@ Expectation read_expectation(const NodePtr& node, const Scene& scene) {
       throw InputError(
           "wrong_size", bound->place,
           fmt::format("{} values for {}; expected a bound or [least, most]", values.size(), known.name));
-    expectation.bounds.push_back({known.name, -1, values.size() == 2 ? values[0] : 0.0, values.back()});
+    expectation.bounds.push_back(
+        {known.name, std::nullopt, values.size() == 2 ? values[0] : 0.0, values.back()});
   }
   if (const NodePtr torque = entry.find("max_torque")) {
     const auto items = items_of(torque, "max_torque");
@@ -70,10 +71,10 @@ std::vector<std::string> missed(const Expectation& expectation, const Measures& 
   for (const auto& bound : expectation.bounds) {
     const double value = bound.value_in(measures);
     if (value >= bound.least && value <= bound.most) continue;
-    const bool torque = bound.motor >= 0;
+    const bool torque = bound.motor.has_value();
     const double scale = torque ? 1 : 1e3;
     const char* unit = torque ? "N m" : "mm";
-    const std::string name = torque ? fmt::format("{}[{}]", bound.name, bound.motor) : bound.name;
+    const std::string name = torque ? fmt::format("{}[{}]", bound.name, *bound.motor) : bound.name;
     lines.push_back(bound.least > 0
                         ? fmt::format("{} is {:.6g} {}; expected {:.6g} to {:.6g} {}", name, value * scale,
                                       unit, bound.least * scale, bound.most * scale, unit)

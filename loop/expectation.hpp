@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace mixloop {
 /// What an experiment must show: bounds on what is measured, or that it diverges.
 struct Expectation {
   struct Bound {
-    std::string name;  ///< of the measure, e.g. "max_position_error"
-    int motor = -1;    ///< which element of a measure that has one a motor
+    std::string name;          ///< of the measure, e.g. "max_position_error"
+    std::optional<int> motor;  ///< which element of a measure that has one a motor
     double least = 0, most = 0;
     double value_in(const Measures& measures) const;
   };

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <optional>
 
 #include "dynamics/equations.hpp"
+#include "dynamics/procedure/decompositions.hpp"
 #include "dynamics/program/trace.hpp"
 #include "integrators/integrator.hpp"
 #include "notation/errors.hpp"
@@ -95,7 +95,7 @@ class Chooser {
     jacobian.by_v = Eigen::Map<const Matrix>(out.data() + n_ * n_, n_, n_);
   }
 
-  Vector advanced(Integrator& integrator, const Sample& sample) {
+  Vector advanced(Integrator<>& integrator, const Sample& sample) {
     Vector x = sample.start;
     integrator.advance(
         x, tick_,
@@ -129,8 +129,8 @@ class Chooser {
       J.topRightCorner(n_, n_).setIdentity();
       J.bottomLeftCorner(n_, n_) = sample.jacobian.by_q;
       J.bottomRightCorner(n_, n_) = sample.jacobian.by_v;
-      const double growth = std::exp(std::max(0.0, J.eigenvalues().real().maxCoeff()) * tick_);
-      if (!(map_of_tick(method, substeps, J, sample).eigenvalues().cwiseAbs().maxCoeff() <=
+      const double growth = std::exp(std::max(0.0, eigenvalues(J).real().maxCoeff()) * tick_);
+      if (!(eigenvalues(map_of_tick(method, substeps, J, sample)).cwiseAbs().maxCoeff() <=
             growth * (1 + 1e-4)))
         return false;
     }

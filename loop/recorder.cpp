@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loop/position_error.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -35,14 +37,14 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
   conditions_.reserve(row_of_conditions_ * (1 + 2 * faults));
 }
 
-void Recorder::note_changes(std::int64_t k, const Faults* faults) {
-  if (!faults || faults->changed_at() != k) return;
+void Recorder::note_changes(std::int64_t k, const Faults::State* faults) {
+  if (!faults || faults->changed_at != k) return;
   const bool full = conditions_.size() + row_of_conditions_ > conditions_.capacity();
   const bool same_tick = conditions_[conditions_.size() - row_of_conditions_] == static_cast<double>(k);
   if (full || same_tick) conditions_.resize(conditions_.size() - row_of_conditions_);
   conditions_.push_back(static_cast<double>(k));
-  conditions_.push_back(faults->friction());
-  conditions_.insert(conditions_.end(), faults->parameters().begin(), faults->parameters().end());
+  conditions_.push_back(faults->friction);
+  conditions_.insert(conditions_.end(), faults->parameters.begin(), faults->parameters.end());
 }
 
 Recorder::Conditions Recorder::conditions(std::int64_t k) const {
@@ -56,13 +58,8 @@ Recorder::Conditions Recorder::conditions(std::int64_t k) const {
 bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work) {
   if (!all_finite(psi) || !all_finite(psid) || !std::isfinite(work)) return diverged(k);
   kinematics_.evaluate(Purpose::end_effector, {psi, psid, zero_, time(k)}, hand_);
-  const auto& desired = plan_.at(k).position;
-  double squared = 0;
-  for (const int axis : axes_) {
-    const double error = hand_[static_cast<std::size_t>(axis)] - desired[axis];
-    squared += error * error;
-  }
-  error_ = std::sqrt(squared);
+  error_ =
+      mixloop::position_error(Eigen::Map<const Eigen::Vector3d>(hand_.data()), plan_.at(k).position, axes_);
   if (!measures_.safe_at && !(error_ <= limit_)) return diverged(k);
 
   double* to = row(k);

@@ -24,7 +24,7 @@ class Recorder {
   bool command(std::int64_t k, std::span<const double> tau, std::span<const double> applied);
 
   /// Keeps what faults have changed at tick k, if anything; before its command. `faults` may be null.
-  void note_changes(std::int64_t k, const Faults* faults);
+  void note_changes(std::int64_t k, const Faults::State* faults);
 
   void interrupted();
   /// From tick k on the plant is in its safe state: recorded, and judged no more.

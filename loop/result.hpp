@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "loop/experiment.hpp"
 #include "loop/measures.hpp"
+#include "loop/origin.hpp"
 
 namespace mixloop {
 
@@ -14,19 +18,98 @@ namespace mixloop {
 /// interrupted.
 enum ExitStatus : int { kHeld = 0, kMissed = 1, kBadInput = 2, kRunFault = 3, kInterrupted = 130 };
 
-/// A run judged against what its experiment expects.
-struct Verdict {
-  std::string word;                 ///< "held", "missed", "diverged", "safe_state" or "interrupted"
+/// What became of a run beside what its experiment expects: a divergence that is expected is held.
+enum class Verdict : std::uint8_t { held, missed, diverged, safe_state, interrupted, fault };
+std::string_view name_of(Verdict verdict);
+
+struct Judgement {
+  Verdict verdict = Verdict::held;
   std::vector<std::string> missed;  ///< each bound that was missed, in words
   int exit_status = kHeld;          ///< of `simulate` and `run`: divergence is 3, expected or not
 };
-Verdict judge(const Experiment& experiment, const Measures& measures);
+Judgement judge(const Experiment& experiment, const Measures& measures);
 
-/// The JSON of a run: measures, verdict, and how it came about (route, evaluation, parameters, versions).
-nlohmann::json result_json(const Experiment& experiment, const Measures& measures, const std::string& route,
-                           double wall_time);
+/// A run of ours: what it was and what was measured of it.
+struct RunFigures {
+  /// A bound beside what was measured.
+  struct Bound {
+    Expectation::Bound expected;
+    double value = 0;
+    bool held = false;
+  };
+  struct Integrator {
+    struct Chosen {
+      double local_error = 0, estimate = 0;
+      std::string why;
+    };
+    std::string name;
+    std::optional<int> substeps;  ///< one of the two
+    std::optional<double> local_error;
+    std::optional<Chosen> chosen;  ///< of `integrator: auto`
+  };
 
-/// The summary that a person reads.
-std::string summary(const Experiment& experiment, const nlohmann::json& result);
+  Measures measures;
+  std::vector<Bound> bounds;
+  bool expects_divergence = false;
+  double wall_time = 0;    ///< s
+  std::string route;       ///< "simulate", "lockstep", "real_time" or "attached"
+  std::string evaluation;  ///< of the equations of motion
+  double rate = 0;         ///< Hz
+  std::string scene, scene_sha256;
+  std::map<std::string, double> parameters;  ///< the plant's
+  Integrator integrator;
+  std::optional<std::uint64_t> seed;  ///< where the run draws random numbers
+  Origin origin;
+};
+
+/// What the bus added to a run, times in s.
+struct BusFigures {
+  struct Quantiles {
+    double p50 = 0, p99 = 0, p999 = 0, max = 0;
+  };
+  struct Deadlines {
+    std::int64_t longest_miss = 0;
+    double success_last_100 = 1;
+    std::uint64_t overruns = 0;
+    std::optional<std::string> safe_cause, safe_state;
+  };
+
+  std::int64_t missed_deadlines = 0;   ///< 0 in lockstep, which waits
+  std::optional<Deadlines> deadlines;  ///< in real time
+  std::uint64_t resent = 0;
+  Quantiles round_trip;
+  std::optional<Quantiles> wake_up;  ///< where ticks are paced
+  double slipped = 0;
+  std::uint64_t rejected = 0;
+  std::map<std::string, std::uint64_t> rejected_by_cause;
+  bool joined_late = false;
+};
+
+/// What a command has to tell of an experiment.
+struct Result {
+  struct Error {
+    std::string code, message, where;
+  };
+  struct Log {
+    std::string file;
+    std::int64_t events = 0;
+    std::int64_t missing_ticks = 0;
+  };
+
+  std::string experiment;
+  Judgement judged;
+  std::optional<RunFigures>
+      run;  ///< none: it failed before, or the plant was a stranger's, which told nothing
+  std::optional<BusFigures> bus;
+  std::optional<std::int64_t> session;
+  std::optional<std::int64_t> missing_ticks;  ///< of a run that was listened to
+  std::optional<Log> log;
+  std::optional<std::vector<std::string>> warnings;
+  std::optional<Error> error;
+};
+
+/// The result of a run that is over.
+Result result_of(const Experiment& experiment, const Measures& measures, const std::string& route,
+                 double wall_time);
 
 }  // namespace mixloop

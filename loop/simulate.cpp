@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "loop/simulate.hpp"
 
-#include "loop/measured_state.hpp"
 #include "notation/errors.hpp"
 
 namespace mixloop {
@@ -11,31 +10,27 @@ void require_start(const GuardedController& controller, std::span<const double> 
   if (!refusal.empty()) throw RunFault("not_at_start", refusal);
 }
 
-void simulate(const Experiment& experiment, const Plan& plan, Recorder& recorder,
-              const std::function<bool(std::int64_t k)>& go_on) {
-  Plant plant = make_plant(experiment, plan);
-  GuardedController controller = make_guarded_controller(experiment);
+void simulate(RecordedPlant& run, const std::function<bool(std::int64_t k)>& go_on) {
+  const Plan& plan = run.plan();
+  const Plant& plant = run.plant();
+  GuardedController controller = make_guarded_controller(run.experiment());
   require_start(controller, plant.psi(), plan);
-  Vector tau = Vector::Zero(experiment.scene->n());
-  MeasuredState measured(plant);
+  Vector torque = Vector::Zero(run.experiment().scene->n());
+  const std::span<const double> tau = span_of(std::as_const(torque));
   const auto control = [&](int stage, double t, std::span<const double> psi, std::span<const double> psid,
                            std::span<double> out) {
     controller.torque(psi, psid, false, plan.at_stage(plant.tick(), stage), t, out);
   };
+  const auto continuously = [&](Plant& it) { it.advance_continuously(control); };
+  const auto before_end = [&](std::int64_t k) { return k < plan.ticks(); };
+  if (!run.begin()) return;
   for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
-    recorder.note_changes(k, plant.faults());
-    if (!recorder.state(k, plant.psi(), plant.psid(), plant.work())) return;
-    if (!go_on(k)) return recorder.interrupted();
-    measured.take(plant);
-    controller.torque(measured.psi(), measured.psid(), measured.stale(), plan.at(k), plant.time(),
-                      span_of(tau));
-    plant.command(span_of(std::as_const(tau)));
-    if (!recorder.command(k, span_of(std::as_const(tau)), plant.applied())) return;
-    if (k == plan.ticks()) return;
-    if (experiment.plant.continuous)
-      plant.advance_continuously(control);
-    else
-      plant.advance();
+    if (!go_on(k)) return run.recorder().interrupted();
+    const auto [psi, psid, stale] = run.measure();
+    controller.torque(psi, psid, stale, plan.at(k), plant.time(), span_of(torque));
+    if (!(run.experiment().plant.continuous ? run.lockstep_tick(tau, {}, before_end, continuously)
+                                            : run.lockstep_tick(tau, {}, before_end)))
+      return;
   }
 }
 

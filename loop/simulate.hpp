@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "loop/experiment.hpp"
-#include "loop/recorder.hpp"
+#include "loop/recorded_plant.hpp"
 
 namespace mixloop {
 
@@ -14,7 +13,6 @@ void require_start(const GuardedController& controller, std::span<const double> 
 
 /// The closed loop in one process, as fast as it goes: the same plant, controller and plan that the three
 /// processes run over the bus, so the same bytes. `go_on(k)` is asked at every tick; false interrupts.
-void simulate(const Experiment& experiment, const Plan& plan, Recorder& recorder,
-              const std::function<bool(std::int64_t k)>& go_on);
+void simulate(RecordedPlant& run, const std::function<bool(std::int64_t k)>& go_on);
 
 }  // namespace mixloop

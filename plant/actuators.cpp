@@ -70,37 +70,40 @@ Actuators::Actuators(const ActuatorSettings& settings, std::size_t n) {
                        .smooth = value(settings.smooth, i, kSmooth)});
 }
 
-double Actuators::Drive::ramp_time() const { return std::abs(u - r) / rate; }
+double Actuators::Drive::ramp_time(const State::Drive& at) const { return std::abs(at.u - at.r) / rate; }
 
 // r(s) = r0 + sign(u - r0) min(R s, |u - r0|)
-double Actuators::Drive::ramp(double s) const {
-  return s >= ramp_time() ? u : r + std::copysign(rate * s, u - r);
+double Actuators::Drive::ramp(const State::Drive& from, double s) const {
+  const auto [u, r, y] = from;
+  return s >= ramp_time(from) ? u : r + std::copysign(rate * s, u - r);
 }
 
 // T y' = r - y. On the ramp, with slope k: y = r0 + k (s + T (e^(-s/T) - 1)) + (y0 - r0) e^(-s/T), and at its
 // end towards u from there.
-double Actuators::Drive::lagged(double s) const {
-  if (lag == 0) return ramp(s);
-  const double end = ramp_time(), on_ramp = std::min(s, end), slope = std::copysign(rate, u - r);
+double Actuators::Drive::lagged(const State::Drive& from, double s) const {
+  if (lag == 0) return ramp(from, s);
+  const auto [u, r, y] = from;
+  const double end = ramp_time(from), on_ramp = std::min(s, end), slope = std::copysign(rate, u - r);
   double at = y;
   if (on_ramp > 0)
     at = r + slope * (on_ramp + lag * std::expm1(-on_ramp / lag)) + (y - r) * std::exp(-on_ramp / lag);
   return s > end ? u + (at - u) * std::exp(-(s - end) / lag) : at;
 }
 
-void Actuators::take(std::span<const double> u) {
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    drives_[i].u = u[i];
-    if (!settled_) drives_[i].r = drives_[i].y = u[i];
+void Actuators::take(State& state, std::span<const double> u) {
+  for (std::size_t i = 0; i < state.drives.size(); ++i) {
+    auto& drive = state.drives[i];
+    drive.u = u[i];
+    if (!state.settled) drive.r = drive.y = u[i];
   }
-  settled_ = true;
+  state.settled = true;
 }
 
-void Actuators::torque(double s, std::span<const double> psi, std::span<const double> psid, double friction,
-                       std::span<double> tau) const {
+void Actuators::torque(const State& state, double s, std::span<const double> psi,
+                       std::span<const double> psid, double friction, std::span<double> tau) const {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const Drive& drive = drives_[i];
-    double torque = drive.lagged(s);
+    double torque = drive.lagged(state.drives[i], s);
     if (drive.ripple > 0) torque *= 1 + drive.ripple * std::sin(drive.per_turn * psi[i]);
     torque -= friction * drive.viscous * psid[i];
     if (drive.coulomb > 0) torque -= friction * drive.coulomb * std::tanh(psid[i] / drive.smooth);
@@ -108,17 +111,19 @@ void Actuators::torque(double s, std::span<const double> psi, std::span<const do
   }
 }
 
-void Actuators::pass(double s) {
-  for (Drive& drive : drives_) {
-    drive.y = drive.lagged(s);
-    drive.r = drive.ramp(s);
+void Actuators::pass(State& state, double s) const {
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    auto& at = state.drives[i];
+    at.y = drives_[i].lagged(at, s);
+    at.r = drives_[i].ramp(at, s);
   }
 }
 
-double Actuators::next_kink(double s) const {
+double Actuators::next_kink(const State& state, double s) const {
   double next = HUGE_VAL;
-  for (const Drive& drive : drives_)
-    if (drive.lag == 0 && drive.ramp_time() > s) next = std::min(next, drive.ramp_time());
+  for (std::size_t i = 0; i < drives_.size(); ++i)
+    if (const double end = drives_[i].ramp_time(state.drives[i]); drives_[i].lag == 0 && end > s)
+      next = std::min(next, end);
   return next;
 }
 

@@ -33,34 +33,46 @@ ActuatorSettings read_actuator_settings(const NodePtr& node, const Scene& scene)
 ///   r(s) = r0 + sign(u - r0) min(R s, |u - r0|),   T y' = r - y,
 ///   tau = y (1 + A sin(N psi)) - b psi' - c tanh(psi' / v)
 /// so that the torque at a stage of the integrator is an exact function of the time since u began to act.
-/// Nothing allocates after construction.
+/// Nothing allocates but state().
 class Actuators {
  public:
+  /// What the drives remember.
+  struct State {
+    struct Drive {
+      double u = 0, r = 0, y = 0;  ///< the torque asked for, behind the rate limit, behind the lag
+      bool operator==(const Drive&) const = default;
+    };
+    std::vector<Drive> drives;
+    bool settled = false;
+    bool operator==(const State&) const = default;
+  };
+
   Actuators(const ActuatorSettings& settings, std::size_t n);
 
+  /// Before any command.
+  State state() const { return {.drives = std::vector<State::Drive>(drives_.size())}; }
+
   /// `u` is asked for from now on, n. The first one finds the drives settled on it.
-  void take(std::span<const double> u);
+  static void take(State& state, std::span<const double> u);
 
   /// What acts `s` seconds after take or pass, whichever came last.
-  void torque(double s, std::span<const double> psi, std::span<const double> psid, double friction,
-              std::span<double> tau) const;
+  void torque(const State& state, double s, std::span<const double> psi, std::span<const double> psid,
+              double friction, std::span<double> tau) const;
 
   /// `s` seconds go by.
-  void pass(double s);
+  void pass(State& state, double s) const;
 
   /// When, after `s`, a torque next has a kink: a ramp that no lag smooths is over. HUGE_VAL: never.
-  double next_kink(double s) const;
+  double next_kink(const State& state, double s) const;
 
  private:
   struct Drive {
     double rate, lag, ripple, per_turn, viscous, coulomb, smooth;
-    double u = 0, r = 0, y = 0;
-    double ramp_time() const;
-    double ramp(double s) const;
-    double lagged(double s) const;
+    double ramp_time(const State::Drive& at) const;
+    double ramp(const State::Drive& from, double s) const;
+    double lagged(const State::Drive& from, double s) const;
   };
   std::vector<Drive> drives_;
-  bool settled_ = false;
 };
 
 }  // namespace mixloop

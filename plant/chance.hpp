@@ -15,6 +15,7 @@ enum class Draw : std::uint64_t { noise, drop, motor_fault, position_fault, velo
 class Chance {
  public:
   explicit Chance(std::uint64_t seed) : seed_(mixed(seed)) {}
+  bool operator==(const Chance&) const = default;
 
   /// Uniform in [0, 1).
   double uniform(std::int64_t tick, std::size_t channel, Draw draw) const {

@@ -11,22 +11,25 @@ DeadlinePlant::DeadlinePlant(Plant plant, const PlantSettings& settings, Deadlin
     : plant_(std::move(plant)),
       deadline_(std::move(deadline)),
       tick_length_(1.0 / rate_hz),
-      delay_(settings.command_delay),
-      n_(plant_.psi().size()),
-      commanded_(Vector::Zero(static_cast<Eigen::Index>(n_))),
-      stand_(commanded_),
-      last_hundred_(100, true) {
+      delay_(settings.command_delay) {
+  state_.commanded = state_.stand = Vector::Zero(static_cast<Eigen::Index>(plant_.psi().size()));
+  state_.last_hundred.assign(100, true);
   // Commands are each of another tick: no more of them wait than ticks go into the delay.
-  effects_.assign(static_cast<std::size_t>(std::ceil(delay_ * rate_hz)) + 4, Effect{.tau = commanded_});
-  arrivals_.commands.reserve(static_cast<std::size_t>(ticks) + 2);
-  arrivals_.interventions.reserve(kInjected + 1);
+  state_.effects.assign(static_cast<std::size_t>(std::ceil(delay_ * rate_hz)) + 4, {.tau = state_.commanded});
+  state_.arrivals.commands.reserve(static_cast<std::size_t>(ticks) + 2);
+  state_.arrivals.interventions.reserve(kInjected + 1);
+}
+
+void DeadlinePlant::put_back(const DeadlineState& state, const PlantState& plant) {
+  state_ = state;
+  plant_.put_back(plant);
 }
 
 void DeadlinePlant::command(Arrival arrival, std::span<const double> tau) {
-  if (arrival.command <= newest_) return;
-  newest_ = arrival.command;
+  if (arrival.command <= state_.newest) return;
+  state_.newest = arrival.command;
   arrival.tick = plant_.tick();
-  auto& commands = arrivals_.commands;
+  auto& commands = state_.arrivals.commands;
   if (commands.size() < commands.capacity()) commands.push_back(arrival);
   const bool first = arrival.command == 0;
   const double at = first ? 0 : std::max(1e-9 * static_cast<double>(arrival.offset), 0.0) + delay_;
@@ -35,8 +38,9 @@ void DeadlinePlant::command(Arrival arrival, std::span<const double> tau) {
 }
 
 void DeadlinePlant::queue(std::int64_t tick, double offset, std::span<const double> tau) {
-  Effect& effect = effects_[(first_ + waiting_) % effects_.size()];
-  if (waiting_ < effects_.size()) ++waiting_;
+  auto& effects = state_.effects;
+  auto& effect = effects[(state_.first + state_.waiting) % effects.size()];
+  if (state_.waiting < effects.size()) ++state_.waiting;
   effect.tick = tick;
   effect.offset = std::max(offset, 0.0);
   effect.tau = map_of(tau);
@@ -44,60 +48,66 @@ void DeadlinePlant::queue(std::int64_t tick, double offset, std::span<const doub
 
 void DeadlinePlant::finish_tick() {
   const std::int64_t k = plant_.tick();
-  if (safe_) take_safe_torque();
-  for (; waiting_ > 0 && effects_[first_].tick <= k; first_ = (first_ + 1) % effects_.size(), --waiting_) {
-    if (safe_) continue;
-    commanded_ = effects_[first_].tau;
-    plant_.take_effect(effects_[first_].offset, span_of(std::as_const(commanded_)));
+  if (safe()) take_safe_torque();
+  while (state_.waiting > 0 && state_.effects[state_.first].tick <= k) {
+    const auto& effect = state_.effects[state_.first];
+    state_.first = (state_.first + 1) % state_.effects.size();
+    --state_.waiting;
+    if (safe()) continue;
+    state_.commanded = effect.tau;
+    plant_.take_effect(effect.offset, commanded());
   }
   plant_.finish_tick();
-  if (!safe_) count(newest_ >= k);
+  if (!safe()) count(state_.newest >= k);
 }
 
 void DeadlinePlant::count(bool in_time) {
-  last_hundred_[static_cast<std::size_t>(counted_++) % last_hundred_.size()] = in_time;
+  auto& last_hundred = state_.last_hundred;
+  last_hundred[static_cast<std::size_t>(state_.counted++) % last_hundred.size()] = in_time;
   if (in_time) {
-    run_of_misses_ = 0;
+    state_.run_of_misses = 0;
     return;
   }
-  ++missed_;
-  longest_miss_ = std::max(longest_miss_, ++run_of_misses_);
-  if (run_of_misses_ > deadline_.max_missed) go_safe("commands missed");
+  ++state_.missed;
+  state_.longest_miss = std::max(state_.longest_miss, ++state_.run_of_misses);
+  if (state_.run_of_misses > deadline_.max_missed) go_safe("commands missed");
 }
 
 double DeadlinePlant::success_last_100() const {
-  const auto known = std::min<std::int64_t>(counted_, static_cast<std::int64_t>(last_hundred_.size()));
+  const auto& last_hundred = state_.last_hundred;
+  const auto known = std::min<std::int64_t>(state_.counted, static_cast<std::int64_t>(last_hundred.size()));
   if (known == 0) return 1;
-  return static_cast<double>(std::count(last_hundred_.begin(), last_hundred_.begin() + known, true)) /
+  return static_cast<double>(std::count(last_hundred.begin(), last_hundred.begin() + known, true)) /
          static_cast<double>(known);
 }
 
 void DeadlinePlant::make_safe(const char* cause) {
-  if (safe_) return;
-  arrivals_.interventions.push_back({.tick = plant_.tick(), .cause = cause});
+  if (safe()) return;
+  state_.arrivals.interventions.push_back({.tick = plant_.tick(), .cause = cause});
   go_safe(cause);
 }
 
 bool DeadlinePlant::inject(const Fault& fault) {
-  auto& kept = arrivals_.interventions;
+  auto& kept = state_.arrivals.interventions;
   if (kept.size() >= kInjected || !plant_.inject(fault)) return false;
   kept.push_back({.tick = plant_.tick(), .fault = fault});
   return true;
 }
 
 void DeadlinePlant::go_safe(const char* cause) {
-  safe_ = Safe{.tick = plant_.tick(), .cause = cause};
-  stand_ = map_of(plant_.psi());
+  state_.safe = {.tick = plant_.tick(), .cause = cause};
+  state_.stand = map_of(plant_.psi());
   if (deadline_.safe_state == SafeState::brake) plant_.lock();
 }
 
 void DeadlinePlant::take_safe_torque() {
-  commanded_.setZero();
+  Vector& tau = state_.commanded;
+  tau.setZero();
   const bool hold = deadline_.safe_state == SafeState::hold;
-  if (hold) commanded_ = deadline_.kp.cwiseProduct(stand_ - map_of(plant_.psi()));
+  if (hold) tau = deadline_.kp.cwiseProduct(state_.stand - map_of(plant_.psi()));
   if (hold || deadline_.safe_state == SafeState::damp)
-    commanded_ -= deadline_.kv.cwiseProduct(map_of(plant_.psid()));
-  plant_.take_effect(0, span_of(std::as_const(commanded_)));
+    tau -= deadline_.kv.cwiseProduct(map_of(plant_.psid()));
+  plant_.take_effect(0, commanded());
 }
 
 }  // namespace mixloop

@@ -11,6 +11,32 @@
 
 namespace mixloop {
 
+/// What a plant under commands with a deadline remembers beside its own state.
+struct DeadlineState {
+  struct Effect {
+    std::int64_t tick = 0;
+    double offset = 0;  ///< s
+    Vector tau;
+    bool operator==(const Effect&) const = default;
+  };
+  struct Safe {
+    std::int64_t tick;
+    const char* cause;
+    bool operator==(const Safe&) const = default;
+  };
+
+  std::int64_t newest = -1;     ///< the newest command that arrived
+  std::vector<Effect> effects;  ///< a ring of those that are still to act
+  std::size_t first = 0, waiting = 0;
+  Vector commanded, stand;  ///< stand: psi where the safe state began
+  std::optional<Safe> safe;
+  Arrivals arrivals;
+  std::int64_t missed = 0, longest_miss = 0, run_of_misses = 0, counted = 0;
+  std::vector<bool> last_hundred;  ///< ticks, by counted: whether their command came in time
+
+  bool operator==(const DeadlineState&) const = default;
+};
+
 /// The plant under commands with a deadline: each acts when it arrives (`command_delay` later, where there is
 /// one), one that misses its tick is counted, too many in a row bring the safe state, which only a new plant
 /// leaves. A pure function of the arrivals, so that `simulate --ages` goes through the same bytes. It knows
@@ -20,6 +46,11 @@ class DeadlinePlant {
   /// `ticks`: as many arrivals are kept, beside a few.
   DeadlinePlant(Plant plant, const PlantSettings& settings, DeadlineSettings deadline, double rate_hz,
                 std::int64_t ticks);
+
+  /// All that it remembers, the plant apart.
+  const DeadlineState& state() const { return state_; }
+  /// Goes on from states of this plant.
+  void put_back(const DeadlineState& state, const PlantState& plant);
 
   Plant& plant() { return plant_; }
   const Plant& plant() const { return plant_; }
@@ -37,26 +68,17 @@ class DeadlinePlant {
   /// in hand it changes from its start.
   bool inject(const Fault& fault);
   static constexpr std::size_t kInjected = 1000;
-  struct Safe {
-    std::int64_t tick;
-    const char* cause;
-  };
-  const std::optional<Safe>& safe() const { return safe_; }
+  const std::optional<DeadlineState::Safe>& safe() const { return state_.safe; }
 
   /// The command in effect at the end of the last tick, before limits; in the safe state, what stands for it.
-  std::span<const double> commanded() const { return {commanded_.data(), n_}; }
+  std::span<const double> commanded() const { return span_of(state_.commanded); }
 
-  std::int64_t missed() const { return missed_; }              ///< ticks whose command came late or never
-  std::int64_t longest_miss() const { return longest_miss_; }  ///< the longest run of them
-  double success_last_100() const;                             ///< of the last 100 ticks, as far as there are
-  const Arrivals& arrivals() const { return arrivals_; }
+  std::int64_t missed() const { return state_.missed; }  ///< ticks whose command came late or never
+  std::int64_t longest_miss() const { return state_.longest_miss; }  ///< the longest run of them
+  double success_last_100() const;  ///< of the last 100 ticks, as far as there are
+  const Arrivals& arrivals() const { return state_.arrivals; }
 
  private:
-  struct Effect {
-    std::int64_t tick = 0;
-    double offset = 0;  ///< s
-    Vector tau;
-  };
   void queue(std::int64_t tick, double offset, std::span<const double> tau);
   void count(bool in_time);
   void go_safe(const char* cause);
@@ -65,16 +87,7 @@ class DeadlinePlant {
   Plant plant_;
   DeadlineSettings deadline_;
   double tick_length_, delay_;
-  std::size_t n_;
-  std::int64_t newest_ = -1;     ///< the newest command that arrived
-  std::vector<Effect> effects_;  ///< a ring of those that are still to act
-  std::size_t first_ = 0, waiting_ = 0;
-  Vector commanded_, stand_;  ///< stand_: psi where the safe state began
-  std::optional<Safe> safe_;
-  Arrivals arrivals_;
-
-  std::int64_t missed_ = 0, longest_miss_ = 0, run_of_misses_ = 0, counted_ = 0;
-  std::vector<bool> last_hundred_;
+  DeadlineState state_;
 };
 
 }  // namespace mixloop

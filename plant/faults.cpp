@@ -137,19 +137,22 @@ double FaultFilter::filtered(double value) {
 
 Faults::Faults(const FaultSettings& settings, std::uint64_t seed, const Scene& scene, double rate_hz,
                std::vector<double> values)
-    : rate_hz_(rate_hz),
+    : scheduled_(settings.scheduled),
+      chance_(seed),
+      rate_hz_(rate_hz),
       n_(scene.motors().size()),
-      until_(2 * n_ + values.size() + 1, kNever),
-      normal_(values),
-      values_(std::move(values)) {
-  const Chance chance(seed);
+      normal_(std::move(values)) {}
+
+Faults::State Faults::state() const {
+  State state{.until = std::vector<std::int64_t>(2 * n_ + normal_.size() + 1, kNever), .parameters = normal_};
   for (std::size_t i = 0; i < n_; ++i) {
-    motors_.emplace_back(chance, i, Draw::motor_fault, rate_hz);
-    positions_.emplace_back(chance, i, Draw::position_fault, rate_hz);
-    velocities_.emplace_back(chance, i, Draw::velocity_fault, rate_hz);
+    state.motors.emplace_back(chance_, i, Draw::motor_fault, rate_hz_);
+    state.positions.emplace_back(chance_, i, Draw::position_fault, rate_hz_);
+    state.velocities.emplace_back(chance_, i, Draw::velocity_fault, rate_hz_);
   }
-  waiting_.reserve(settings.scheduled.size() + kWaiting);
-  for (const Fault& fault : settings.scheduled) queue(fault, 0);
+  state.waiting.reserve(scheduled_.size() + kWaiting);
+  for (const Fault& fault : scheduled_) queue(state, fault, 0);
+  return state;
 }
 
 /// The first tick at or after a time.
@@ -160,75 +163,77 @@ std::int64_t Faults::tick_at(double time) const {
              : kLatest;
 }
 
-void Faults::queue(const Fault& fault, std::int64_t earliest) {
-  const Scheduled next{std::max(tick_at(fault.at), earliest), fault};
-  waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), next,
-                                   [](const auto& a, const auto& b) { return a.tick < b.tick; }),
-                  next);
+void Faults::queue(State& state, const Fault& fault, std::int64_t earliest) const {
+  const State::Scheduled next{std::max(tick_at(fault.at), earliest), fault};
+  state.waiting.insert(std::upper_bound(state.waiting.begin(), state.waiting.end(), next,
+                                        [](const auto& a, const auto& b) { return a.tick < b.tick; }),
+                       next);
 }
 
-bool Faults::inject(const Fault& fault, const Scene& scene, std::int64_t tick) {
-  if (waiting_.size() == waiting_.capacity() || objection(fault, scene, rate_hz_)) return false;
-  queue(fault, tick);
-  begin(tick);
+bool Faults::inject(State& state, const Fault& fault, const Scene& scene, std::int64_t tick) const {
+  if (state.waiting.size() == scheduled_.size() + kWaiting || objection(fault, scene, rate_hz_)) return false;
+  queue(state, fault, tick);
+  begin(state, tick);
   return true;
 }
 
-void Faults::begin(std::int64_t tick) {
+void Faults::begin(State& state, std::int64_t tick) const {
   bool changed = false;
-  for (std::size_t slot = 0; slot < until_.size(); ++slot)
-    if (until_[slot] <= tick) changed = start(healing(slot), kNever) || changed;
+  for (std::size_t slot = 0; slot < state.until.size(); ++slot)
+    if (state.until[slot] <= tick) changed = start(state, healing(slot), kNever) || changed;
+  auto& waiting = state.waiting;
   std::size_t due = 0;
-  for (; due < waiting_.size() && waiting_[due].tick <= tick; ++due) {
-    const Fault& fault = waiting_[due].fault;
+  for (; due < waiting.size() && waiting[due].tick <= tick; ++due) {
+    const Fault& fault = waiting[due].fault;
     const double from = std::max(fault.at, static_cast<double>(tick) / rate_hz_);
-    changed = start(fault, fault.duration > 0 ? tick_at(from + fault.duration) : kNever) || changed;
+    changed = start(state, fault, fault.duration > 0 ? tick_at(from + fault.duration) : kNever) || changed;
   }
-  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(due));
-  if (changed) changed_ = tick;
-  active_ = any_active();
+  waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(due));
+  if (changed) state.changed_at = tick;
+  state.active = any_active(state);
 }
 
 Fault Faults::healing(std::size_t slot) const {
   const auto index = [](std::size_t i) { return static_cast<int>(i); };
   if (slot < n_) return {.target = Target::motor, .index = index(slot)};
   if (slot < 2 * n_) return {.target = Target::sensor, .index = index(slot - n_)};
-  if (slot + 1 < until_.size()) return {.target = Target::parameter, .index = index(slot - 2 * n_)};
+  if (slot < 2 * n_ + normal_.size()) return {.target = Target::parameter, .index = index(slot - 2 * n_)};
   return {.target = Target::friction};
 }
 
-bool Faults::start(const Fault& fault, std::int64_t until) {
+bool Faults::start(State& state, const Fault& fault, std::int64_t until) const {
   const bool heals = fault.kind == Kind::none;
   if (fault.target == Target::friction) {
-    friction_ = heals ? 1 : fault.magnitude;
-    until_.back() = until;
+    state.friction = heals ? 1 : fault.magnitude;
+    state.until.back() = until;
     return true;
   }
   if (fault.target == Target::parameter) {
     const auto i = static_cast<std::size_t>(fault.index);
-    values_[i] = heals ? normal_[i] : fault.magnitude;
-    until_[2 * n_ + i] = until;
+    state.parameters[i] = heals ? normal_[i] : fault.magnitude;
+    state.until[2 * n_ + i] = until;
     return true;
   }
   for (std::size_t i = 0; i < n_; ++i) {
     if (fault.index >= 0 && static_cast<std::size_t>(fault.index) != i) continue;
     if (fault.target == Target::motor) {
-      motors_[i].start(fault.kind, fault.magnitude);
-      until_[i] = until;
+      state.motors[i].start(fault.kind, fault.magnitude);
+      state.until[i] = until;
       continue;
     }
-    positions_[i].start(fault.kind, fault.magnitude);
+    state.positions[i].start(fault.kind, fault.magnitude);
     // Who counts from a wrong zero has the right velocity.
-    velocities_[i].start(fault.kind == Kind::wrong ? Kind::none : fault.kind, fault.magnitude);
-    until_[n_ + i] = until;
+    state.velocities[i].start(fault.kind == Kind::wrong ? Kind::none : fault.kind, fault.magnitude);
+    state.until[n_ + i] = until;
   }
   return false;
 }
 
-bool Faults::any_active() const {
+bool Faults::any_active(const State& state) const {
   const auto active = [](const FaultFilter& filter) { return filter.active(); };
-  return friction_ != 1 || values_ != normal_ || std::any_of(motors_.begin(), motors_.end(), active) ||
-         std::any_of(positions_.begin(), positions_.end(), active);
+  return state.friction != 1 || state.parameters != normal_ ||
+         std::any_of(state.motors.begin(), state.motors.end(), active) ||
+         std::any_of(state.positions.begin(), state.positions.end(), active);
 }
 
 }  // namespace mixloop

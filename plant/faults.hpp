@@ -31,6 +31,7 @@ struct Fault {
       0;  ///< N m, N, rad, m, s, a share of time, the parameter's value or a factor, as the kind has it
   double at = 0;        ///< s of plant time; what has passed: at once
   double duration = 0;  ///< s; 0: until healed
+  bool operator==(const Fault&) const = default;
 };
 
 /// What may happen to a plant.
@@ -58,6 +59,7 @@ const char* objection(const Fault& fault, const Scene& scene, double rate_hz);
 class FaultFilter {
  public:
   FaultFilter(Chance chance, std::size_t channel, Draw draw, double rate_hz);
+  bool operator==(const FaultFilter&) const = default;
 
   /// From the tick in hand on.
   void start(Fault::Kind kind, double magnitude);
@@ -80,7 +82,7 @@ class FaultFilter {
   std::vector<double> ring_;                ///< of kind delayed, by tick
 };
 
-/// The faults of a plant: a schedule, and what it has brought about. Nothing allocates after construction.
+/// The faults of a plant: what may come about, and when. Nothing allocates but state().
 class Faults {
  public:
   /// So many injected faults may wait for their time.
@@ -88,48 +90,48 @@ class Faults {
   /// The longest dead time of a fault, s; at fast rates less, see objection.
   static constexpr double kLongestDelay = 1;
 
+  /// What has come about, and what is still to come.
+  struct State {
+    struct Scheduled {
+      std::int64_t tick;
+      Fault fault;
+      bool operator==(const Scheduled&) const = default;
+    };
+    std::vector<Scheduled> waiting;  ///< in the order of their ticks
+    std::vector<FaultFilter> motors, positions, velocities;
+    std::vector<std::int64_t> until;  ///< of motors, sensors, parameters, friction: the tick that ends it
+    std::vector<double> parameters;   ///< of the scene
+    double friction = 1;              ///< a factor
+    bool active = false;              ///< anything, at the tick last begun
+    std::int64_t changed_at = -1;     ///< the last tick at which parameters or friction changed; -1
+    bool operator==(const State&) const = default;
+  };
+
   /// `values`: the plant's parameters as it begins.
   Faults(const FaultSettings& settings, std::uint64_t seed, const Scene& scene, double rate_hz,
          std::vector<double> values);
 
+  /// Before any tick, with room for all that may wait.
+  State state() const;
+
   /// False: it can't be, or too many wait.
-  bool inject(const Fault& fault, const Scene& scene, std::int64_t tick);
+  bool inject(State& state, const Fault& fault, const Scene& scene, std::int64_t tick) const;
   /// Begins and ends what is due.
-  void begin(std::int64_t tick);
-
-  double torque(std::size_t i, std::int64_t tick, double value) { return motors_[i].pass(tick, value); }
-  double position(std::size_t i, std::int64_t tick, double value) { return positions_[i].pass(tick, value); }
-  double velocity(std::size_t i, std::int64_t tick, double value) { return velocities_[i].pass(tick, value); }
-
-  bool active() const { return active_; }  ///< anything, at the tick last begun
-  std::int64_t changed_at() const {
-    return changed_;
-  }  ///< the last tick at which parameters or friction changed; -1
-  std::span<const double> parameters() const { return values_; }
-  double friction() const { return friction_; }
+  void begin(State& state, std::int64_t tick) const;
 
  private:
-  struct Scheduled {
-    std::int64_t tick;
-    Fault fault;
-  };
-  void queue(const Fault& fault, std::int64_t earliest);
+  void queue(State& state, const Fault& fault, std::int64_t earliest) const;
   Fault healing(std::size_t slot) const;
   /// True where parameters or friction change.
-  bool start(const Fault& fault, std::int64_t until);
-  bool any_active() const;
+  bool start(State& state, const Fault& fault, std::int64_t until) const;
+  bool any_active(const State& state) const;
   std::int64_t tick_at(double time) const;
 
+  std::vector<Fault> scheduled_;
+  Chance chance_;
   double rate_hz_;
   std::size_t n_;
-  std::vector<Scheduled> waiting_;  ///< in the order of their ticks
-  std::vector<FaultFilter> motors_, positions_, velocities_;
-  std::vector<std::int64_t>
-      until_;  ///< of motors, sensors, parameters, friction: the tick that ends the fault
-  std::vector<double> normal_, values_;
-  double friction_ = 1;
-  bool active_ = false;
-  std::int64_t changed_ = -1;
+  std::vector<double> normal_;  ///< the parameters where nothing is wrong
 };
 
 }  // namespace mixloop

@@ -5,26 +5,21 @@
 
 namespace mixloop {
 
-Hardware::Hardware(const PlantSettings& settings, const Scene& scene, double rate_hz)
-    : asked_(Vector::Zero(scene.n())), faulted_(asked_) {
+Hardware::Hardware(const PlantSettings& settings, const Scene& scene, double rate_hz) {
   const auto n = static_cast<std::size_t>(scene.n());
-  const std::vector<double> values =
-      settings.parameters.empty() ? scene.default_parameters() : settings.parameters;
   if (settings.actuators.any()) actuators.emplace(settings.actuators, n);
   if (settings.sensors.any() || settings.faults.any())
     sensors.emplace(settings.sensors, settings.seed, n, rate_hz);
-  if (settings.faults.any()) faults.emplace(settings.faults, settings.seed, scene, rate_hz, values);
+  if (settings.faults.any())
+    faults.emplace(settings.faults, settings.seed, scene, rate_hz, parameters_of(settings, scene));
 }
 
-Hardware::~Hardware() = default;
-
-std::span<const double> Hardware::through_faults(std::int64_t tick, std::span<const double> tau) {
-  if (tau.data() != asked_.data()) asked_ = map_of(tau);
-  was_asked_ = true;
-  if (!faults) return asked();
-  for (std::size_t i = 0; i < tau.size(); ++i)
-    faulted_[static_cast<Eigen::Index>(i)] = faults->torque(i, tick, tau[i]);
-  return span_of(std::as_const(faulted_));
+HardwareState Hardware::state(std::size_t n) const {
+  HardwareState state{.asked = Vector::Zero(static_cast<Eigen::Index>(n))};
+  if (actuators) state.actuators = actuators->state();
+  if (sensors) state.sensors = sensors->state();
+  if (faults) state.faults = faults->state();
+  return state;
 }
 
 void check_hardware(const PlantSettings& settings, const NodePtr& entry, const NodePtr& faults) {

@@ -3,39 +3,27 @@
 
 #include <optional>
 
-#include "dynamics/procedure/matrix.hpp"
 #include "plant/plant_settings.hpp"
+#include "plant/plant_state.hpp"
 
 namespace mixloop {
 
-/// Where a plant isn't ideal: its drives, its sensors, what goes wrong with them. A plant that is ideal has
-/// none.
-class Hardware {
- public:
+/// Where a plant isn't ideal: its drives, its sensors, what goes wrong with them; all constant. A plant that
+/// is ideal has none.
+struct Hardware {
   /// Whether settings ask for any.
   static bool needed(const PlantSettings& settings) {
     return settings.sensors.any() || settings.actuators.any() || settings.faults.any();
   }
 
   Hardware(const PlantSettings& settings, const Scene& scene, double rate_hz);
-  ~Hardware();
-  Hardware(const Hardware&) = delete;
-  Hardware& operator=(const Hardware&) = delete;
+
+  /// Before anything has happened.
+  HardwareState state(std::size_t n) const;
 
   std::optional<Actuators> actuators;
   std::optional<Sensors> sensors;
   std::optional<Faults> faults;
-
-  /// A command as the motors' faults let it through, until the next call; it is kept as asked_.
-  std::span<const double> through_faults(std::int64_t tick, std::span<const double> tau);
-  bool was_asked() const { return was_asked_; }
-  std::span<const double> asked() const { return span_of(asked_); }  ///< the latest command
-
-  double friction() const { return faults ? faults->friction() : 1; }
-
- private:
-  Vector asked_, faulted_;
-  bool was_asked_ = false;
 };
 
 /// Throws InputError where sensors, actuators or faults can't be right with how the plant is integrated and

@@ -2,17 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "dynamics/equations.hpp"
-#include "integrators/integrator.hpp"
-#include "plant/plant_settings.hpp"
+#include "plant/hardware.hpp"
+#include "plant/ideal_plant.hpp"
 
 namespace mixloop {
-
-class Hardware;
 
 /// The equations that a plant of these settings evaluates.
 std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
@@ -20,31 +17,37 @@ std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> sc
 
 /// The simulated hardware: constraint-reduced forward dynamics, a torque held from command to command (or
 /// continuous), dead time and saturation; drives, sensors and faults where settings ask for them. It knows
-/// ticks, no clock.
+/// ticks, no clock. Nothing allocates after construction.
 class Plant {
  public:
-  Plant(Equations::Workspace dynamics, PlantSettings settings, double rate_hz, std::span<const double> psi0);
-  ~Plant();
-  Plant(Plant&&) noexcept;
+  Plant(Equations::Workspace dynamics, const PlantSettings& settings, double rate_hz,
+        std::span<const double> psi0);
 
-  std::int64_t tick() const { return tick_; }
-  double time() const { return static_cast<double>(tick_) / rate_hz_; }  ///< t_k = k / rate
-  std::span<const double> psi() const { return {x_.data(), n_}; }
-  std::span<const double> psid() const { return {x_.data() + n_, n_}; }
+  /// All that it remembers.
+  const PlantState& state() const { return state_; }
+  /// Goes on from a state of this plant, or of one that is built like it.
+  void put_back(const PlantState& state);
+
+  std::int64_t tick() const { return state_.motion.tick; }
+  double time() const { return model().time(tick()); }  ///< t_k = k / rate
+  std::span<const double> psi() const { return state_.motion.psi(); }
+  std::span<const double> psid() const { return state_.motion.psid(); }
   /// The work that the motors have done, J: the integral of tau . psi'.
-  double work() const { return x_[static_cast<Eigen::Index>(2 * n_)]; }
+  double work() const { return state_.motion.work(); }
   /// What acts from time() on, after delay, saturation and what the drives make of it, N m or N.
-  std::span<const double> applied() const { return {applied_.data(), n_}; }
+  std::span<const double> applied() const { return span_of(state_.motion.applied); }
 
   /// What the sensors say at tick(), n each; true where a reading is older than it should be.
   bool measure(std::span<double> psi, std::span<double> psid);
   /// Whether that is psi() and psid().
-  bool measures_exactly() const;
+  bool measures_exactly() const { return !hardware_ || !hardware_->sensors; }
   /// Takes a fault, which acts from tick() on or later. False: it can't be (objection says why), too many
   /// wait for their time, or the settings don't allow any.
   bool inject(const Fault& fault);
   /// Null where nothing can go wrong.
-  const Faults* faults() const;
+  const Faults::State* faults() const {
+    return hardware_ && hardware_->faults ? &state_.hardware.faults : nullptr;
+  }
 
   /// Takes COMMAND(tick()); it acts from t_k + command_delay on.
   void command(std::span<const double> tau);
@@ -67,55 +70,41 @@ class Plant {
   template <class Control>
   void advance_continuously(const Control& control);
 
-  const Equations& equations() const { return dynamics_.equations(); }
+  const Equations& equations() const { return ideal_.dynamics().equations(); }
   /// psi'' at the state in hand with `applied()`.
   void acceleration(std::span<double> psidd);
 
  private:
-  void saturate(std::span<const double> tau);
-  void integrate_held(double t, double h);
-  void integrate_driven(double t, double h);
-  void add_work_since_before();
-  void saturate_by_hardware(std::span<const double> tau);
-  void limit(std::span<const double> tau);
+  struct Drives;
+  const PlantModel& model() const { return ideal_.model(); }
+  void take(std::span<const double> tau);
   void begin_tick();
-  void begin_hardware_tick();
   void take_changes();
+  void take_by_hardware(std::span<const double> tau);
+  void integrate_driven(double t, double length);
   void drive(double s, std::span<const double> psi, std::span<const double> psid);
   void driven_rate_of(double s, double t, const Vector& x, Vector& dx);
-  void rate_of(double t, const Vector& x, Vector& dx);
-  void linearise(double t, const Vector& x, AccelerationJacobian<double>& jacobian);
-  void time_derivative(double t, const Vector& x, Vector& by_t);
 
-  Equations::Workspace dynamics_;
-  PlantSettings settings_;
-  double rate_hz_;
-  std::size_t n_;
-  std::int64_t tick_ = 0;
-  std::size_t delay_ticks_ = 0;  ///< whole ticks of the command delay
-  double delay_rest_ = 0;        ///< and the rest, s
-  bool locked_ = false;
-  double within_ = 0;  ///< s after the tick's start that take_effect has reached
-  Vector x_;           ///< psi, psid, work
-  Vector applied_, before_, scratch_;
-  std::vector<Vector> commands_;  ///< a ring by tick, as long as the delay needs
-  Integrator integrator_;
+  IdealPlant<double, Equations::Workspace> ideal_;
   StageRows rows_;
-  Vector linearisation_;                ///< 3 n^2, of methods with a Jacobian
-  bool timed_;                          ///< the forward dynamics depend on time
-  std::unique_ptr<Hardware> hardware_;  ///< null: ideal
+  bool faults_may_come_;              ///< by inject
+  std::optional<Hardware> hardware_;  ///< none: ideal
+  PlantState state_;
 };
 
 template <class Control>
 void Plant::advance_continuously(const Control& control) {
-  const auto rate = [&](int step, int stage, double t, const Vector& x, Vector& dx) {
-    const std::span<const double> psi(x.data(), n_), psid(x.data() + n_, n_);
-    control(rows_.rows * step + rows_.row[static_cast<std::size_t>(stage)], time() + t, psi, psid,
-            span_of(applied_));
-    saturate(span_of(std::as_const(applied_)));
-    hardware_ ? driven_rate_of(0, time() + t, x, dx) : rate_of(time() + t, x, dx);
+  auto& motion = state_.motion;
+  const auto rate = [&](int step, int stage, double after, const Vector& x, Vector& dx) {
+    const std::span<const double> psi(x.data(), motion.n()), psid(x.data() + motion.n(), motion.n());
+    const double t = time() + after;
+    control(rows_.rows * step + rows_.row[static_cast<std::size_t>(stage)], t, psi, psid,
+            span_of(motion.applied));
+    take(applied());
+    hardware_ ? driven_rate_of(0, t, x, dx) : ideal_.rate_of(motion, t, x, dx);
   };
-  integrator_.advance(x_, 1.0 / rate_hz_, rate, [](double, const Vector&, auto&) {});
+  ideal_.integrator().advance(motion.x, model().tick_length(), rate, [](double, const Vector&, auto&) {});
+  ++motion.tick;
   begin_tick();
 }
 

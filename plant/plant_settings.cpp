@@ -101,6 +101,10 @@ PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene, doubl
   return settings;
 }
 
+std::vector<double> parameters_of(const PlantSettings& settings, const Scene& scene) {
+  return settings.parameters.empty() ? scene.default_parameters() : settings.parameters;
+}
+
 PlantSettings ideal(PlantSettings settings) {
   settings.sensors = {};
   settings.actuators = {};

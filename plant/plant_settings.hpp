@@ -34,6 +34,9 @@ struct PlantSettings {
   bool random() const { return sensors.random() || faults.random() || faults.injected; }
 };
 
+/// The scene's parameters before any fault.
+std::vector<double> parameters_of(const PlantSettings& settings, const Scene& scene);
+
 /// The settings without sensors, actuators, faults.
 PlantSettings ideal(PlantSettings settings);
 

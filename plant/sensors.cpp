@@ -73,58 +73,65 @@ Sensors::Sensors(const SensorSettings& settings, std::uint64_t seed, std::size_t
                  ? -std::expm1(-2 * std::numbers::pi * settings.velocity_filter / rate_hz)
                  : 1) {
   const auto value = [](const auto& values, std::size_t i) { return values.empty() ? 0 : values[i]; };
-  for (std::size_t i = 0; i < n; ++i) {
-    Channel channel{.resolution = value(settings.resolution, i),
-                    .noise = value(settings.noise, i),
-                    .bias = value(settings.bias, i),
-                    .drop = value(settings.drop, i),
-                    .delay = static_cast<std::size_t>(value(settings.delay, i))};
-    channel.positions.resize(channel.delay + 1);
-    channel.velocities.resize(channel.delay + 1);
-    channels_.push_back(std::move(channel));
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    channels_.push_back({.resolution = value(settings.resolution, i),
+                         .noise = value(settings.noise, i),
+                         .bias = value(settings.bias, i),
+                         .drop = value(settings.drop, i),
+                         .delay = static_cast<std::size_t>(value(settings.delay, i))});
 }
 
-bool Sensors::measure(std::int64_t tick, std::span<const double> psi, std::span<const double> psid,
-                      Faults* faults, std::span<double> psi_out, std::span<double> psid_out) {
-  const bool again = tick == tick_;
-  if (!again) stale_ = false;
+Sensors::State Sensors::state() const {
+  State state;
+  for (const Channel& channel : channels_) {
+    const std::vector<double> ring(channel.delay + 1);
+    state.channels.push_back({.positions = ring, .velocities = ring});
+  }
+  return state;
+}
+
+bool Sensors::measure(State& state, std::int64_t tick, std::span<const double> psi,
+                      std::span<const double> psid, Faults::State* faults, std::span<double> psi_out,
+                      std::span<double> psid_out) const {
+  const bool again = tick == state.tick;
+  if (!again) state.stale = false;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    Channel& channel = channels_[i];
-    if (!again && read(channel, i, tick, psi[i], psid[i], faults)) stale_ = true;
-    psi_out[i] = channel.position;
-    psid_out[i] = channel.velocity;
+    if (!again && read(state, i, tick, psi[i], psid[i], faults)) state.stale = true;
+    psi_out[i] = state.channels[i].position;
+    psid_out[i] = state.channels[i].velocity;
   }
-  tick_ = tick;
-  return stale_;
+  state.tick = tick;
+  return state.stale;
 }
 
-bool Sensors::read(Channel& channel, std::size_t i, std::int64_t tick, double psi, double psid,
-                   Faults* faults) {
-  const bool first = tick_ < 0;
+bool Sensors::read(State& state, std::size_t i, std::int64_t tick, double psi, double psid,
+                   Faults::State* faults) const {
+  const Channel& channel = channels_[i];
+  State::Channel& memory = state.channels[i];
+  const bool first = state.tick < 0;
   double position = psi + channel.bias;
   if (channel.noise > 0) position += channel.noise * chance_.normal(tick, i, Draw::noise);
   if (channel.resolution > 0) position = channel.resolution * std::nearbyint(position / channel.resolution);
-  if (faults) position = faults->position(i, tick, position);
+  if (faults) position = faults->positions[i].pass(tick, position);
   double velocity = psid;
   if (differentiated_) {
-    const double difference = first ? 0 : (position - channel.before) * rate_hz_;
-    channel.filtered = share_ < 1 ? channel.filtered + share_ * (difference - channel.filtered) : difference;
-    velocity = channel.filtered;
-    channel.before = position;
+    const double difference = first ? 0 : (position - memory.before) * rate_hz_;
+    memory.filtered = share_ < 1 ? memory.filtered + share_ * (difference - memory.filtered) : difference;
+    velocity = memory.filtered;
+    memory.before = position;
   } else if (faults) {
-    velocity = faults->velocity(i, tick, velocity);
+    velocity = faults->velocities[i].pass(tick, velocity);
   }
   const std::size_t size = channel.delay + 1, slot = static_cast<std::size_t>(tick) % size;
   if (first) {
-    std::fill(channel.positions.begin(), channel.positions.end(), position);
-    std::fill(channel.velocities.begin(), channel.velocities.end(), velocity);
+    std::fill(memory.positions.begin(), memory.positions.end(), position);
+    std::fill(memory.velocities.begin(), memory.velocities.end(), velocity);
   }
-  channel.positions[slot] = position;
-  channel.velocities[slot] = velocity;
+  memory.positions[slot] = position;
+  memory.velocities[slot] = velocity;
   if (!first && channel.drop > 0 && chance_.uniform(tick, i, Draw::drop) < channel.drop) return true;
-  channel.position = channel.positions[(slot + 1) % size];  // the oldest
-  channel.velocity = channel.velocities[(slot + 1) % size];
+  memory.position = memory.positions[(slot + 1) % size];  // the oldest
+  memory.velocity = memory.velocities[(slot + 1) % size];
   return false;
 }
 

@@ -33,34 +33,47 @@ SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, dou
 
 /// The sensors: of psi a reading, psi + bias + noise rounded to the resolution and through the sensor's
 /// fault; of psi' the true one, or the reading's difference over a tick, low-passed; both `delay` ticks old;
-/// the last ones again where they aren't delivered. Nothing allocates after construction.
+/// the last ones again where they aren't delivered. Nothing allocates but state().
 class Sensors {
  public:
+  /// What the sensors remember.
+  struct State {
+    struct Channel {
+      double before = 0, filtered = 0;            ///< the last tick's reading, the low-passed velocity
+      std::vector<double> positions, velocities;  ///< rings by tick
+      double position = 0, velocity = 0;          ///< as delivered last
+      bool operator==(const Channel&) const = default;
+    };
+    std::vector<Channel> channels;
+    std::int64_t tick = -1;  ///< the last one measured
+    bool stale = false;
+    bool operator==(const State&) const = default;
+  };
+
   Sensors(const SensorSettings& settings, std::uint64_t seed, std::size_t n, double rate_hz);
+
+  /// Before any measurement.
+  State state() const;
 
   /// At each tick, in order (the same one again gives the same); true where a reading is stale. The first
   /// tick's are always delivered, and stand for what is older. `faults` may be null.
-  bool measure(std::int64_t tick, std::span<const double> psi, std::span<const double> psid, Faults* faults,
-               std::span<double> psi_out, std::span<double> psid_out);
+  bool measure(State& state, std::int64_t tick, std::span<const double> psi, std::span<const double> psid,
+               Faults::State* faults, std::span<double> psi_out, std::span<double> psid_out) const;
 
  private:
   struct Channel {
     double resolution, noise, bias, drop;
     std::size_t delay;
-    double before = 0, filtered = 0;            ///< the last tick's reading, the low-passed velocity
-    std::vector<double> positions, velocities;  ///< rings by tick
-    double position = 0, velocity = 0;          ///< as delivered last
   };
   /// True where it isn't delivered.
-  bool read(Channel& channel, std::size_t i, std::int64_t tick, double psi, double psid, Faults* faults);
+  bool read(State& state, std::size_t i, std::int64_t tick, double psi, double psid,
+            Faults::State* faults) const;
 
   Chance chance_;
   double rate_hz_;
   bool differentiated_;
   double share_;  ///< of the new value in the low-pass
   std::vector<Channel> channels_;
-  std::int64_t tick_ = -1;
-  bool stale_ = false;
 };
 
 }  // namespace mixloop

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 
 namespace mixloop {
@@ -26,21 +27,17 @@ Experiment PeerLine::load() const {
 }
 
 void add_peer_options(CLI::App& command, PeerLine& line) {
-  command.add_option("experiment", line.experiment, "the experiment file, the same for all three processes")
-      ->required()
-      ->type_name("EXPERIMENT");
+  add_experiment_option(command, line.experiment, "the experiment file, the same for all three processes");
   add_common_options(command, line);
   add_bus_options(command, line.bus);
   command
       .add_option("--session", line.session,
                   "the run's id; 0: the plant draws one, the others take the first that they hear")
       ->type_name("ID");
-  command.add_option("--patience", line.patience, "seconds without an answer after which a peer is lost, 10")
-      ->type_name("S")
-      ->check(CLI::Range(0.05, 3600.0));
-  command.add_option("--first-wait", line.first_wait, "seconds to wait for the others at the start, 60")
-      ->type_name("S")
-      ->check(CLI::Range(0.05, 86400.0));
+  add_seconds_option(command, "--patience", line.patience,
+                     "seconds without an answer after which a peer is lost, 10");
+  add_seconds_option(command, "--first-wait", line.first_wait,
+                     "seconds to wait for the others at the start, 60", 86400);
   command.add_flag(
       "--realtime", line.real_time,
       "keep real time: locked memory, real-time priority, no deep idle states, where they are allowed");

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
 #include "loop/result.hpp"
 
@@ -71,6 +73,15 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_flag("--json", options.json,
                    "print one JSON object on stdout and nothing else, errors included");
+}
+
+void add_experiment_option(CLI::App& command, std::string& experiment, const std::string& what) {
+  command.add_option("experiment", experiment, what)->required()->type_name("EXPERIMENT");
+}
+
+void add_seconds_option(CLI::App& command, const std::string& name, double& seconds, const std::string& what,
+                        double most) {
+  command.add_option(name, seconds, what)->type_name("S")->check(CLI::Range(0.05, most));
 }
 
 void add_evaluation_option(CLI::App& command, Evaluation& evaluation) {

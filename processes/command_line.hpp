@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "loop/experiment.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace mixloop {
 
@@ -22,6 +25,14 @@ struct CommonOptions {
   std::vector<Override> overrides() const;
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// The experiment file, first of a command's words.
+void add_experiment_option(CLI::App& command, std::string& experiment,
+                           const std::string& what = "the experiment file");
+
+/// An option of so many seconds, from 0.05 to `most`.
+void add_seconds_option(CLI::App& command, const std::string& name, double& seconds, const std::string& what,
+                        double most = 3600);
 
 /// `--evaluation`: how the equations of motion are evaluated.
 void add_evaluation_option(CLI::App& command, Evaluation& evaluation);

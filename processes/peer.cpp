@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "loop/result.hpp"
 
 namespace mixloop {
@@ -18,27 +20,15 @@ PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std
           .max_missed = experiment.deadline.max_missed};
 }
 
-namespace {
-
-/// "7 length, 5 session"; stale ones alone are a lossy network's, and worth no word.
-std::string words_of(const Rejects& rejects) {
-  std::string words;
-  for (const Reject cause : kRejects)
-    if (const auto number = rejects.of(cause); number > 0)
-      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", number, name(cause));
-  return words;
-}
-
-}  // namespace
-
 int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop) {
   if (report.joined_late) fmt::print(stderr, "{}: joined late, at a tick past 0\n", program);
   if (ending != Ending::finished)
     fmt::print(stderr, "{}: {} after {} ticks ({} answered again)\n", program, name(ending), report.answered,
                report.repeated);
-  if (report.rejects.total() > report.rejects.stale)
+  // Stale ones alone are a lossy network's, and worth no word.
+  if (report.rejects.total() > report.rejects.of(Reject::stale))
     fmt::print(stderr, "{}: {} messages dropped: {}\n", program, report.rejects.total(),
-               words_of(report.rejects));
+               to_string(report.rejects));
   if (ending == Ending::broken_off) return kHeld;  // the plant's fault, which it reports
   return stop.turned() ? kInterrupted : kHeld;
 }

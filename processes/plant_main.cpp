@@ -1,8 +1,39 @@
 // SPDX-License-Identifier: MIT
 // mixloop-plant: the simulated hardware, on the bus. It owns the clock and keeps the result.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 #include <csignal>
 
-#include "processes/plant_process.hpp"
+#include "processes/keep.hpp"
+#include "processes/plant_session.hpp"
+#include "runtime/protocol/session.hpp"
+
+namespace mixloop {
+namespace {
+
+/// One session after the other, as the operator resets it. The exit status.
+int run(const PlantLine& line) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  Experiment loaded = line.load();
+  loaded.plant.faults.injected = line.allow_faults;
+  const Plan plan = make_plan(loaded);
+  const Experiment experiment = with_integrator_settled(loaded, plan);
+  ReportLine report(line.report_fd);
+  if (!line.out.empty()) prepare_folder(line.out);
+  Bus bus(line.bus);
+  for (std::int64_t session = line.session;;) {
+    PlantSession plant(line, experiment, plan, report);
+    const std::int64_t next = draw_session();
+    if (plant.run(bus, stop, session, next) != Ending::reset) return plant.exit_status();
+    if (line.report_fd < 0) fmt::print(stderr, "mixloop-plant: reset, to tick 0 of a new session\n");
+    session = next;
+  }
+}
+
+}  // namespace
+}  // namespace mixloop
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
@@ -27,6 +58,6 @@ int main(int argc, char** argv) {
       "experiment, in any order.\n"
       "With --realtime it waits for tick 0's COMMAND only: from then on commands have a deadline.\n"
       "Exit status: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time, 130 interrupted.");
-  app.callback([&] { status = mixloop::run_plant_process(options); });
+  app.callback([&] { status = mixloop::run(options); });
   return mixloop::run_command_line(argc, argv, app, status);
 }

@@ -6,6 +6,9 @@
 #include <cerrno>
 #include <cinttypes>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "processes/result_json.hpp"
 
 namespace mixloop {
 
@@ -19,14 +22,15 @@ void ReportLine::tick(std::int64_t k) {
   write_all(line, static_cast<std::size_t>(size));
 }
 
-void ReportLine::keeping() { say({{"keeping", true}}); }
+void ReportLine::keeping() const { say(R"({"keeping": true})"); }
 
-void ReportLine::result(const nlohmann::json& result) { say({{"result", result}}); }
+void ReportLine::result(const Result& result) const {
+  if (fd_ >= 0) say(nlohmann::json{{"result", json_of(result)}}.dump());
+}
 
-void ReportLine::say(const nlohmann::json& what) const {
+void ReportLine::say(const std::string& line) const {
   if (fd_ < 0) return;
-  const std::string line = what.dump() + "\n";
-  write_all(line.data(), line.size());
+  write_all((line + "\n").data(), line.size() + 1);
 }
 
 void ReportLine::write_all(const char* text, std::size_t size) const {
@@ -37,6 +41,14 @@ void ReportLine::write_all(const char* text, std::size_t size) const {
     text += written;
     size -= static_cast<std::size_t>(written);
   }
+}
+
+Reported reported_in(const std::string& line) {
+  const auto json = nlohmann::json::parse(line, nullptr, false);
+  Reported reported{.keeping = json.contains("keeping")};
+  if (json.contains("tick")) reported.tick = json["tick"].get<std::int64_t>();
+  if (json.contains("result")) reported.result = result_in(json["result"]);
+  return reported;
 }
 
 }  // namespace mixloop

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
+#include "loop/result.hpp"
 #include "runtime/clock/clock.hpp"
 
 namespace mixloop {
@@ -17,15 +19,23 @@ class ReportLine {
 
   /// Ten times a second at most; allocates nothing.
   void tick(std::int64_t k);
-  void keeping();
-  void result(const nlohmann::json& result);
+  void keeping() const;
+  void result(const Result& result) const;
 
  private:
-  void say(const nlohmann::json& what) const;
+  void say(const std::string& line) const;
   void write_all(const char* text, std::size_t size) const;
 
   int fd_;  ///< -1: nobody listens
   Instant next_{0};
 };
+
+/// A line of it read back, one of the three.
+struct Reported {
+  std::optional<std::int64_t> tick;
+  bool keeping = false;
+  std::optional<Result> result;
+};
+Reported reported_in(const std::string& line);
 
 }  // namespace mixloop

@@ -19,7 +19,7 @@ struct TrackingError {
 class Curves {
  public:
   /// `axes`: which of x, y, z the path prescribes; `capacity`: see Envelope.
-  Curves(std::size_t n, std::size_t m, std::vector<int> axes, double rate_hz, std::size_t capacity);
+  Curves(std::vector<int> axes, double rate_hz, std::size_t capacity);
 
   /// The next tick; one that nothing is known of leaves a gap.
   void add(const Tick& tick);
@@ -29,21 +29,22 @@ class Curves {
     std::string name;  ///< e.g. "error_along", "tau_1"; units as in Tick
     Envelope envelope;
   };
-  /// Those that nothing is known of are empty.
+  /// Those that nothing is known of are empty; none before the first tick.
   const std::vector<Curve>& all() const { return curves_; }
-  std::int64_t width() const { return curves_.front().envelope.width(); }
+  std::int64_t width() const { return curves_.empty() ? 1 : curves_.front().envelope.width(); }
   std::int64_t ticks() const { return ticks_; }
   TrackingError tracking_error() const;
 
  private:
-  void put(double value) { curves_[next_++].envelope.add(value); }
+  template <class... Parts>
+  void put(double value, const char* name, const Parts&... parts);
   void put_error(const Tick& tick);
   void put_energy(const Tick& tick);
   void measure(double error, double t);
 
-  std::size_t n_;
   std::vector<int> axes_;
   double rate_hz_;
+  std::size_t capacity_;
   std::vector<Curve> curves_;
   std::size_t next_ = 0;  ///< the curve that put() adds to
   std::int64_t ticks_ = 0;

@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
+#include <tuple>
 
-#include "mixloop/timing_t.hpp"
 #include "notation/errors.hpp"
 #include "runtime/bus/log_reader.hpp"
+#include "watch/tick_assembly.hpp"
 
 namespace mixloop {
 namespace {
 
 constexpr std::int32_t kMostMotors = 1000;
-constexpr std::int64_t kWindow = 256;            // ticks kept open
-constexpr std::int64_t kAhead = 64;              // of them past the latest state: references come early
 constexpr std::int64_t kFarthestJump = 100'000;  // ticks: past it a tick can't be
 
 bool sound(const Header& header) {
@@ -31,30 +29,28 @@ double rate_of(std::int64_t seq, std::int64_t utime) {
   return fits ? round : rate;
 }
 
-/// A tick while its messages come in.
-struct Slot {
-  Tick tick;
-  bool state = false, command = false, reference = false;
-  std::int64_t sent_us = 0;
-};
+void copy_motion(const double* position, const double* velocity, const double* acceleration, Motion& to) {
+  to.position = Eigen::Map<const Eigen::Vector3d>(position);
+  to.velocity = Eigen::Map<const Eigen::Vector3d>(velocity);
+  to.acceleration = Eigen::Map<const Eigen::Vector3d>(acceleration);
+}
 
-/// Puts the messages of a session together, tick by tick.
-class Assembly {
+/// Tells a session's ticks as its messages are added.
+class SessionReader {
  public:
-  Assembly(const LogSession& session, double rate_hz, std::size_t m,
-           const std::function<void(Tick&)>& on_tick)
+  SessionReader(const LogSession& session, double rate_hz, std::size_t m,
+                const std::function<void(Tick&)>& on_tick)
       : session_(session),
         rate_hz_(rate_hz),
+        m_(m),
         on_tick_(on_tick),
-        state_(session.n),
-        reference_(session.n),
-        command_(session.n),
-        truth_(session.n),
+        inboxes_(session.n, session.n, session.n, session.n),
+        ticks_(
+            {.farthest_jump = kFarthestJump, .on_tick = [this](const HeardTick& tick) { tell_up_to(tick); }}),
         next_(session.first_tick),
-        latest_(session.first_tick - 1) {
-    slots_.assign(kWindow, Slot{.tick = Tick(static_cast<std::size_t>(session.n), m)});
-    last_tau_.assign(static_cast<std::size_t>(session.n), kUnknown);
-    last_psi_ = last_tau_;
+        last_tau_(static_cast<std::size_t>(session.n), kUnknown),
+        last_psi_(last_tau_) {
+    ticks_.begin(session.session, session.first_tick);
   }
 
   void add(std::string_view kind, const LogEvent& event) {
@@ -63,110 +59,84 @@ class Assembly {
     if (!header || !sound(*header)) {
       ++facts.dropped;
     } else if (header->session == session_.session) {
-      if (kind == "STATE") take(state_, event, &Assembly::on_state);
-      if (kind == "REFERENCE") take(reference_, event, &Assembly::on_reference);
-      if (kind == "COMMAND") take(command_, event, &Assembly::on_command);
-      if (kind == "TRUTH") take(truth_, event, &Assembly::on_truth);
-      if (kind == "TIMING") on_timing(event);
+      if (kind == "STATE") take<state_t>(event);
+      if (kind == "REFERENCE") take<reference_t>(event);
+      if (kind == "COMMAND") take<command_t>(event);
+      if (kind == "TRUTH") take<truth_t>(event);
+      if (kind == "TIMING") take_timing(event);
     }
   }
 
-  void finish() {
-    while (next_ <= latest_) emit();
-  }
+  void finish() { ticks_.finish(); }
 
   LogFacts facts;
 
  private:
   template <class Message>
-  void take(Inbox<Message>& inbox, const LogEvent& event,
-            void (Assembly::*on)(const Message&, Slot&, std::int64_t)) {
-    const bool read = !inbox.read(event.data);
-    Slot* slot = read ? slot_of(inbox.message.seq, std::is_same_v<Message, state_t>) : nullptr;
-    if (slot)
-      (this->*on)(inbox.message, *slot, event.received_us);
-    else if (!read || inbox.message.seq > latest_)
+  void take(const LogEvent& event) {
+    auto& inbox = std::get<Inbox<Message>>(inboxes_);
+    if (inbox.read(event.data) || ticks_.add(inbox.message, event.received_us) == Taken::early)
       ++facts.dropped;
   }
 
-  /// Null for a tick that is told already or can't be.
-  Slot* slot_of(std::int64_t k, bool is_state) {
-    if (k < next_ || k > latest_ + kFarthestJump || (!is_state && k >= next_ + kWindow)) return nullptr;
-    if (is_state) {
-      while (k + kAhead >= next_ + kWindow) emit();
-      latest_ = std::max(latest_, k);
-    }
-    return &slots_[static_cast<std::size_t>(k % kWindow)];
-  }
-
-  static void copy(const auto& from, auto& to) { std::copy(from.begin(), from.end(), to.begin()); }
-  static void copy_motion(const double* position, const double* velocity, const double* acceleration,
-                          Motion& to) {
-    to.position = Eigen::Map<const Eigen::Vector3d>(position);
-    to.velocity = Eigen::Map<const Eigen::Vector3d>(velocity);
-    to.acceleration = Eigen::Map<const Eigen::Vector3d>(acceleration);
-  }
-
-  void on_state(const state_t& message, Slot& slot, std::int64_t received_us) {
-    facts.is_real_time |= (message.flags & state_t::FLAG_REAL_TIME) != 0;
-    facts.reached_safe_state |= (message.flags & state_t::FLAG_SAFE_STATE) != 0;
-    if (std::exchange(slot.state, true)) return;  // sent again
-    slot.sent_us = received_us;
-    copy(message.psi_measured, slot.tick.psi);
-    copy(message.psid_measured, slot.tick.psid);
-  }
-
-  void on_reference(const reference_t& message, Slot& slot, std::int64_t) {
-    slot.reference = true;
-    copy(message.psi_desired, slot.tick.psi_desired);
-    copy_motion(message.position_desired, message.velocity_desired, message.acceleration_desired,
-                slot.tick.desired);
-  }
-
-  void on_command(const command_t& message, Slot& slot, std::int64_t received_us) {
-    if (std::exchange(slot.command, true)) return;
-    copy(message.tau_commanded, slot.tick.tau);
-    if (slot.state) slot.tick.command_age = static_cast<double>(received_us - slot.sent_us) * 1e-6;
-    if (std::isnan(slot.tick.tau_applied[0])) slot.tick.tau_applied = slot.tick.tau;
-  }
-
-  void on_truth(const truth_t& message, Slot& slot, std::int64_t) {
-    facts.has_truth = true;
-    Tick& tick = slot.tick;
-    copy(message.tau_applied, tick.tau_applied);
-    copy_motion(message.position, message.velocity, message.acceleration, tick.actual);
-    tick.kinetic_energy = message.kinetic_energy;
-    tick.potential_energy = message.potential_energy;
-    tick.work = message.work;
-  }
-
-  void on_timing(const LogEvent& event) {
-    timing_t m;
-    const int size = static_cast<int>(event.data.size());
-    if (m.decode(event.data.data(), 0, size) != size) {
+  void take_timing(const LogEvent& event) {
+    timing_t timing;
+    if (decode(event.data, timing))
+      facts.timing.push_back(timing);
+    else
       ++facts.dropped;
-      return;
-    }
-    const auto s = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-9; };
-    facts.timing.push_back({static_cast<double>(m.seq) / rate_hz_, s(m.round_trip_p50), s(m.round_trip_p99),
-                            s(m.round_trip_max), s(m.wake_up_p50), s(m.wake_up_p99), s(m.wake_up_max),
-                            static_cast<double>(m.missed), static_cast<double>(m.resent),
-                            static_cast<double>(m.overruns)});
   }
 
-  void emit() {
-    Slot& slot = slots_[static_cast<std::size_t>(next_ % kWindow)];
-    Tick& tick = slot.tick;
-    facts.states_missing += !slot.state;
-    facts.commands_missing += slot.state && !slot.command;
-    facts.references_missing += slot.state && !slot.reference;
-    tick.k = next_;
-    tick.t = static_cast<double>(next_) / rate_hz_;
+  void tell_up_to(const HeardTick& heard) {
+    for (HeardTick unheard; next_ < heard.k; ++next_) {
+      unheard.k = next_;
+      tell(unheard);
+    }
+    tell(heard);
+    ++next_;
+  }
+
+  void tell(const HeardTick& heard) {
+    const auto* state = heard.get<state_t>();
+    const auto* reference = heard.get<reference_t>();
+    const auto* command = heard.get<command_t>();
+    const auto* truth = heard.get<truth_t>();
+    facts.states_missing += !state;
+    facts.references_missing += state && !reference;
+    facts.commands_missing += state && !command;
+    facts.has_truth |= truth != nullptr;
+
+    Tick tick(static_cast<std::size_t>(session_.n), m_);
+    tick.k = heard.k;
+    tick.t = static_cast<double>(heard.k) / rate_hz_;
+    if (state) take_state(*state, tick);
+    if (reference) {
+      tick.psi_desired = reference->psi_desired;
+      copy_motion(reference->position_desired, reference->velocity_desired, reference->acceleration_desired,
+                  tick.desired);
+    }
+    if (command) tick.tau = tick.tau_applied = command->tau_commanded;
+    if (const std::int64_t age = heard.heard_at<command_t>() - heard.heard_at<state_t>();
+        state && command && age >= 0)  // else it is the state's first sending that the log lacks
+      tick.command_age = static_cast<double>(age) * 1e-6;
+    if (truth) take_truth(*truth, tick);
     add_work(tick);
     on_tick_(tick);
-    const std::size_t n = tick.psi.size(), m = tick.q.size();
-    slot = Slot{.tick = Tick(n, m)};
-    ++next_;
+  }
+
+  void take_state(const state_t& state, Tick& tick) {
+    facts.is_real_time |= (state.flags & state_t::FLAG_REAL_TIME) != 0;
+    facts.reached_safe_state |= (state.flags & state_t::FLAG_SAFE_STATE) != 0;
+    tick.psi = state.psi_measured;
+    tick.psid = state.psid_measured;
+  }
+
+  void take_truth(const truth_t& truth, Tick& tick) {
+    tick.tau_applied = truth.tau_applied;
+    copy_motion(truth.position, truth.velocity, truth.acceleration, tick.actual);
+    tick.kinetic_energy = truth.kinetic_energy;
+    tick.potential_energy = truth.potential_energy;
+    tick.work = truth.work;
   }
 
   // W(k) = W(k-1) + tau(k-1) . (psi(k) - psi(k-1)) for a torque that is held; over a gap the last one that is
@@ -184,13 +154,11 @@ class Assembly {
 
   const LogSession& session_;
   double rate_hz_;
+  std::size_t m_;
   const std::function<void(Tick&)>& on_tick_;
-  Inbox<state_t> state_;
-  Inbox<reference_t> reference_;
-  Inbox<command_t> command_;
-  Inbox<truth_t> truth_;
-  std::vector<Slot> slots_;
-  std::int64_t next_, latest_;  ///< the tick to emit, and the latest that has a STATE
+  std::tuple<Inbox<state_t>, Inbox<reference_t>, Inbox<command_t>, Inbox<truth_t>> inboxes_;
+  TickAssembly ticks_;
+  std::int64_t next_;  ///< the tick to tell
   std::vector<double> last_tau_, last_psi_;
   double work_ = 0;
 };
@@ -203,15 +171,12 @@ std::string_view kind_of(const LogEvent& event, const std::string& prefix) {
 
 std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std::string& prefix) {
   LogReader reader(log);
-  const auto fingerprint = static_cast<std::uint64_t>(state_t::getHash());
   std::map<std::int64_t, LogSession> found;
   std::map<std::int64_t, std::int64_t> utime;  // of the session's last tick
   while (const LogEvent* event = reader.next()) {
     if (kind_of(*event, prefix) != "STATE") continue;
     const auto header = peek(event->data);
-    std::uint64_t type = 0;
-    for (std::size_t i = 0; header && i < 8; ++i) type = type << 8 | event->data[i];
-    if (!header || !sound(*header) || type != fingerprint) continue;
+    if (!header || !sound(*header) || fingerprint(event->data) != state_t::getHash()) continue;
     auto [at, is_new] = found.try_emplace(
         header->session, LogSession{header->session, header->n, 0, header->seq, header->seq, 0});
     LogSession& session = at->second;
@@ -239,12 +204,12 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
 LogFacts read_log(const std::filesystem::path& log, const std::string& prefix, const LogSession& session,
                   double rate_hz, std::size_t m, const std::function<void(Tick&)>& on_tick) {
   LogReader reader(log);
-  Assembly assembly(session, rate_hz, m, on_tick);
+  SessionReader ticks(session, rate_hz, m, on_tick);
   while (const LogEvent* event = reader.next())
-    if (const auto kind = kind_of(*event, prefix); !kind.empty()) assembly.add(kind, *event);
-  assembly.finish();
-  assembly.facts.damage = reader.damage();
-  return assembly.facts;
+    if (const auto kind = kind_of(*event, prefix); !kind.empty()) ticks.add(kind, *event);
+  ticks.finish();
+  ticks.facts.damage = reader.damage();
+  return ticks.facts;
 }
 
 }  // namespace mixloop

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mixloop/timing_t.hpp"
 #include "report/tick.hpp"
 
 namespace mixloop {
@@ -20,18 +21,12 @@ struct LogSession {
   double rate_hz = 0;  ///< as tick and plant time tell it
 };
 
-/// What the plant said of its timing, a row a message; s.
-struct TimingRow {
-  double t, round_trip_p50, round_trip_p99, round_trip_max, wake_up_p50, wake_up_p99, wake_up_max;
-  double missed, resent, overruns;
-};
-
 /// What a log holds beside its ticks.
 struct LogFacts {
   std::int64_t states_missing = 0, commands_missing = 0, references_missing = 0;  ///< ticks without
   std::int64_t dropped = 0;  ///< messages that can't be read
   bool has_truth = false, is_real_time = false, reached_safe_state = false;
-  std::vector<TimingRow> timing;
+  std::vector<timing_t> timing;
   std::string damage;  ///< of the file, for a person; empty where there is none
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "report/packed.hpp"
 
+#include <openssl/evp.h>
 #include <zlib.h>
 
 #include <bit>
@@ -12,15 +13,9 @@ namespace mixloop {
 namespace {
 
 std::string base64(std::span<const unsigned char> bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t j = 0; j < 3; ++j) word = word << 8 | (i + j < bytes.size() ? bytes[i + j] : 0u);
-    for (std::size_t j = 0; j < 4; ++j)
-      text += i + j > bytes.size() ? '=' : kDigits[word >> (18 - 6 * j) & 63];
-  }
+  std::string text((bytes.size() + 2) / 3 * 4, '=');
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
+                  static_cast<int>(bytes.size()));
   return text;
 }
 

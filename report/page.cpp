@@ -37,11 +37,18 @@ ordered_json names_json(const ReportedRun& run) {
   return {{"motors", motors}, {"coordinates", coordinates}};
 }
 
-ordered_json log_json(const LogFacts& facts) {
+// TIMING's times in seconds; its counts are numbers like all others of the row.
+ordered_json timing_row(const timing_t& m, double rate_hz) {
+  const auto number = [](std::int64_t count) { return static_cast<double>(count); };
+  const auto s = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-9; };
+  return {number(m.seq) / rate_hz, s(m.round_trip_p50), s(m.round_trip_p99), s(m.round_trip_max),
+          s(m.wake_up_p50),        s(m.wake_up_p99),    s(m.wake_up_max),    number(m.missed),
+          number(m.resent),        number(m.overruns)};
+}
+
+ordered_json log_json(const LogFacts& facts, double rate_hz) {
   ordered_json rows = ordered_json::array();
-  for (const auto& row : facts.timing)
-    rows.push_back({row.t, row.round_trip_p50, row.round_trip_p99, row.round_trip_max, row.wake_up_p50,
-                    row.wake_up_p99, row.wake_up_max, row.missed, row.resent, row.overruns});
+  for (const timing_t& timing : facts.timing) rows.push_back(timing_row(timing, rate_hz));
   return {{"states_missing", facts.states_missing},
           {"commands_missing", facts.commands_missing},
           {"references_missing", facts.references_missing},
@@ -82,7 +89,7 @@ ordered_json page_data(const std::vector<ReportedRun>& runs) {
                          {"notes", run.notes},
                          {"result", run.result},
                          {"inputs", run.inputs},
-                         {"log", run.facts ? log_json(*run.facts) : ordered_json()},
+                         {"log", run.facts ? log_json(*run.facts, run.rate_hz) : ordered_json()},
                          {"curves", ordered_json::object()}};
     for (const auto& curve : run.curves.all()) {
       if (curve.envelope.empty()) continue;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace mixloop {
@@ -31,5 +32,19 @@ struct Tick {
   double kinetic_energy = kUnknown, potential_energy = kUnknown, work = kUnknown;  ///< J
   double command_age = kUnknown;  ///< s, from STATE(k) to COMMAND(k) as the logger received them
 };
+
+// A tick's parts by the names that trajectories and curves give them: psi_1, ..., position_x_desired, ...
+inline constexpr std::pair<const char*, std::vector<double> Tick::*> kByMotor[] = {
+    {"psi", &Tick::psi},
+    {"psid", &Tick::psid},
+    {"psi_desired", &Tick::psi_desired},
+    {"tau", &Tick::tau},
+    {"tau_applied", &Tick::tau_applied}};
+inline constexpr std::pair<const char*, Motion Tick::*> kMotions[] = {{"desired", &Tick::desired},
+                                                                      {"actual", &Tick::actual}};
+inline constexpr std::pair<const char*, Eigen::Vector3d Motion::*> kOfAMotion[] = {
+    {"position", &Motion::position},
+    {"velocity", &Motion::velocity},
+    {"acceleration", &Motion::acceleration}};
 
 }  // namespace mixloop

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 
 #include "notation/errors.hpp"
 
@@ -37,32 +38,20 @@ std::vector<std::string_view> split(std::string_view line) {
   return names;
 }
 
-/// Where in a tick the column of this name goes; null where it has no place.
-double* place_of(std::string_view name, Tick& tick) {
-  if (name == "t") return &tick.t;
-  if (name == "kinetic_energy") return &tick.kinetic_energy;
-  if (name == "potential_energy") return &tick.potential_energy;
-  if (name == "work") return &tick.work;
-  const std::pair<std::string_view, std::vector<double>*> vectors[] = {{"psi_", &tick.psi},
-                                                                       {"psid_", &tick.psid},
-                                                                       {"psi_desired_", &tick.psi_desired},
-                                                                       {"tau_", &tick.tau},
-                                                                       {"tau_applied_", &tick.tau_applied}};
-  for (const auto& [prefix, values] : vectors) {
-    if (!name.starts_with(prefix)) continue;
-    std::size_t index = 0;
-    const char* end = name.data() + name.size();
-    const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, index);
-    if (error == std::errc() && stop == end && index >= 1 && index <= values->size())
-      return &(*values)[index - 1];
-  }
-  for (const auto& [kind, motion] : {std::pair("desired", &tick.desired), std::pair("actual", &tick.actual)})
-    for (const auto& [what, vector] :
-         {std::pair("position", &motion->position), std::pair("velocity", &motion->velocity),
-          std::pair("acceleration", &motion->acceleration)})
+/// Where in a tick the columns of these names go.
+std::map<std::string, double*, std::less<>> places_in(Tick& tick) {
+  std::map<std::string, double*, std::less<>> places = {{"t", &tick.t},
+                                                        {"kinetic_energy", &tick.kinetic_energy},
+                                                        {"potential_energy", &tick.potential_energy},
+                                                        {"work", &tick.work}};
+  for (const auto& [what, values] : kByMotor)
+    for (std::size_t i = 0; i < (tick.*values).size(); ++i)
+      places[fmt::format("{}_{}", what, i + 1)] = &(tick.*values)[i];
+  for (const auto& [kind, motion] : kMotions)
+    for (const auto& [what, vector] : kOfAMotion)
       for (int axis = 0; axis < 3; ++axis)
-        if (name == fmt::format("{}_{}_{}", what, "xyz"[axis], kind)) return &(*vector)[axis];
-  return nullptr;
+        places[fmt::format("{}_{}_{}", what, "xyz"[axis], kind)] = &(tick.*motion.*vector)[axis];
+  return places;
 }
 
 }  // namespace
@@ -83,8 +72,12 @@ TrajectoryReader::~TrajectoryReader() { munmap(const_cast<char*>(text_.data()), 
 
 void TrajectoryReader::read(std::size_t m, const std::function<void(Tick&)>& on_tick) {
   Tick tick(n_, m);
-  std::vector<double*> places;
-  for (const auto& name : names_) places.push_back(place_of(name, tick));
+  const auto known = places_in(tick);
+  std::vector<double*> places;  // null for a column that a tick has no place for
+  for (const auto& name : names_) {
+    const auto at = known.find(name);
+    places.push_back(at == known.end() ? nullptr : at->second);
+  }
 
   const char *at = text_.data() + at_, *const end = text_.data() + text_.size();
   for (int line = 2; at < end; ++line, ++tick.k) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "stability/sampled_loop.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "dynamics/procedure/decompositions.hpp"
 
 namespace mixloop {
 namespace {
@@ -17,9 +17,9 @@ struct Hold {
     Matrix block = Matrix::Zero(rows + columns, rows + columns);
     block.topLeftCorner(rows, rows) = loop.A * s;
     block.topRightCorner(rows, columns) = loop.B * s;
-    const Matrix exponential = block.exp();
-    Phi = exponential.topLeftCorner(rows, rows);
-    Gamma = exponential.topRightCorner(rows, columns);
+    const Matrix held = exponential(block);
+    Phi = held.topLeftCorner(rows, rows);
+    Gamma = held.topRightCorner(rows, columns);
   }
 };
 
@@ -49,11 +49,11 @@ Matrix sampled_transition(const LinearLoop& loop, const Matrix& gain, const Samp
 double sampled_radius(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling) {
   const Matrix next = sampled_transition(loop, gain, sampling);
   if (!next.allFinite()) return HUGE_VAL;
-  return radius_of(Eigen::EigenSolver<Matrix>(next, false).eigenvalues());
+  return radius_of(eigenvalues(next));
 }
 
 Eigen::VectorXcd poles(const LinearLoop& loop, const Matrix& gain) {
-  return Eigen::EigenSolver<Matrix>(loop.A + loop.B * gain, false).eigenvalues();
+  return eigenvalues(loop.A + loop.B * gain);
 }
 
 double rk4_radius(const Eigen::VectorXcd& poles, double h) {

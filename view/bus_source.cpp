@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/position_error.hpp"
 #include "runtime/protocol/config_hash.hpp"
 
 namespace mixloop {
@@ -28,19 +27,17 @@ BusSource::BusSource(const BusOptions& bus, const Experiment& experiment, std::i
       config_(config),
       path_(desired_path(experiment)),
       bus_(bus),
-      state_(experiment.scene->n()),
-      reference_(experiment.scene->n()),
-      command_(experiment.scene->n()),
+      inboxes_(experiment.scene->n(), experiment.scene->n(), experiment.scene->n()),
+      // A tick goes into the plots when its command is in, or at the latest when the next state is.
+      ticks_({.patience = 1,
+              .complete = [](const HeardTick& tick) { return tick.get<state_t>() && tick.get<command_t>(); },
+              .on_tick = [this](const HeardTick& tick) { add_trace(tick); }}),
       traces_(static_cast<std::size_t>(experiment.scene->n()), kTicksKept),
       errors_(experiment.scene, experiment.plant_parameters),
       drawing_(experiment.scene, experiment.plant_parameters) {
-  for (auto& slot : slots_) {
-    slot.pose.psi.resize(static_cast<std::size_t>(experiment.scene->n()));
-    slot.tau.resize(slot.pose.psi.size());
-  }
-  bus_.subscribe<&BusSource::on_state>(bus_.channel("STATE"), this);
-  bus_.subscribe<&BusSource::on_reference>(bus_.channel("REFERENCE"), this);
-  bus_.subscribe<&BusSource::on_command>(bus_.channel("COMMAND"), this);
+  bus_.subscribe<&BusSource::on<state_t>>(bus_.channel("STATE"), this);
+  bus_.subscribe<&BusSource::on<reference_t>>(bus_.channel("REFERENCE"), this);
+  bus_.subscribe<&BusSource::on<command_t>>(bus_.channel("COMMAND"), this);
   thread_ = std::thread([this] { listen(); });
 }
 
@@ -59,67 +56,48 @@ void BusSource::listen() {
 
 // The first STATE's session; another takes its place at once: a plant was started again.
 void BusSource::begin_session(const state_t& state) {
-  session_ = state.session;
+  ticks_.begin(state.session, state.seq);
   const std::string difference = name_difference(config_, state.config);
   note_ = difference.empty() ? "" : "The plant runs another experiment: its " + difference + " differ.";
-  latest_ = finished_ = -1;
+  traced_ = -1;
   traces_.clear();
-  for (auto& slot : slots_) slot.state = slot.reference = slot.command = -1;
 }
 
-void BusSource::on_state(Bytes bytes) {
-  if (state_.read(bytes)) return;
-  const auto& message = state_.message;
+template <class Message>
+void BusSource::on(Bytes bytes) {
+  auto& inbox = std::get<Inbox<Message>>(inboxes_);
+  if (inbox.read(bytes)) return;
+  const Message& message = inbox.message;
   const std::lock_guard lock(mutex_);
-  if (message.seq < 0) return;
-  if (message.session != session_) begin_session(message);
-  if (message.seq <= latest_) return;
-  if (latest_ >= 0) finish_tick(latest_);
-  latest_ = message.seq;
-  Slot& at = slot(latest_);
-  at.state = latest_;
-  at.pose.k = latest_;
-  at.pose.t = static_cast<double>(latest_) / experiment_.rate_hz;
-  at.pose.session = message.session;
-  at.pose.flags = message.flags;
-  std::copy(message.psi_measured.begin(), message.psi_measured.end(), at.pose.psi.begin());
-  ++version_;
+  if constexpr (std::is_same_v<Message, state_t>)
+    if (message.seq >= 0 && message.session != ticks_.session()) begin_session(message);
+  const bool fresh = ticks_.add(message) == Taken::fresh;
+  if (fresh && !std::is_same_v<Message, reference_t> && message.seq == ticks_.newest()) ++version_;
 }
 
-void BusSource::on_reference(Bytes bytes) {
-  if (reference_.read(bytes)) return;
-  const auto& message = reference_.message;
-  const std::lock_guard lock(mutex_);
-  if (message.seq < 0 || message.session != session_) return;
-  Slot& at = slot(message.seq);
-  at.reference = message.seq;
-  at.desired = Eigen::Map<const Eigen::Vector3d>(message.position_desired);
+void BusSource::add_trace(const HeardTick& tick) {
+  if (!tick.get<state_t>()) return;
+  traced_ = tick.k;
+  const Pose pose = pose_of(tick);
+  errors_.place(pose.psi, pose.t);
+  traces_.add(
+      trace_of(pose.t, errors_.end_effector(), pose.desired, experiment_.scene->end_effector.axes, pose.tau));
 }
 
-void BusSource::on_command(Bytes bytes) {
-  if (command_.read(bytes)) return;
-  const auto& message = command_.message;
-  const std::lock_guard lock(mutex_);
-  if (message.seq < 0 || message.session != session_) return;
-  Slot& at = slot(message.seq);
-  at.command = message.seq;
-  std::copy(message.tau_commanded.begin(), message.tau_commanded.end(), at.tau.begin());
-  if (message.seq == latest_) finish_tick(latest_), ++version_;
-}
-
-// A tick goes into the plots once: when its command is in, or at the latest when the next state is.
-void BusSource::finish_tick(std::int64_t k) {
-  Slot& at = slot(k);
-  if (k <= finished_ || at.state != k) return;
-  finished_ = k;
-  Trace trace{.t = at.pose.t, .error = NAN, .tau = std::vector<float>(at.tau.size(), NAN)};
-  if (at.command == k) std::copy(at.tau.begin(), at.tau.end(), trace.tau.begin());
-  errors_.place(at.pose.psi, at.pose.t);
-  const Eigen::Vector3d E = errors_.end_effector();
-  for (std::size_t i = 0; i < 3; ++i) trace.place[i] = static_cast<float>(E[static_cast<Eigen::Index>(i)]);
-  if (at.reference == k)
-    trace.error = static_cast<float>(position_error(E, at.desired, experiment_.scene->end_effector.axes));
-  traces_.add(std::move(trace));
+/// Of a tick that has its state.
+Pose BusSource::pose_of(const HeardTick& tick) const {
+  const state_t& state = *tick.get<state_t>();
+  Pose pose{.k = tick.k,
+            .t = static_cast<double>(tick.k) / experiment_.rate_hz,
+            .session = state.session,
+            .psi = state.psi_measured,
+            .tau = std::vector<double>(state.psi_measured.size(), NAN),
+            .flags = state.flags,
+            .note = note_};
+  if (const auto* command = tick.get<command_t>()) pose.tau = command->tau_commanded;
+  if (const auto* reference = tick.get<reference_t>())
+    pose.desired = Eigen::Map<const Eigen::Vector3d>(reference->position_desired);
+  return pose;
 }
 
 std::string BusSource::description() {
@@ -143,15 +121,11 @@ std::string BusSource::newest(Cursor& cursor) {
   {
     const std::lock_guard lock(mutex_);
     cursor.version = version_;
-    if (latest_ < 0) return {};
     // The newest tick that is whole, unless nobody commands.
-    const std::int64_t k = finished_ >= 0 && latest_ - finished_ <= 1 ? finished_ : latest_;
-    const Slot& at = slot(k);
-    pose = at.pose;
-    pose.note = note_;
-    pose.tau.assign(at.tau.size(), NAN);
-    if (at.command == k) pose.tau = at.tau;
-    if (at.reference == k) pose.desired = at.desired;
+    const bool whole = traced_ >= 0 && ticks_.newest() - traced_ <= 1;
+    const HeardTick* tick = ticks_.find(whole ? traced_ : ticks_.newest());
+    if (!tick) return {};
+    pose = pose_of(*tick);
     traces = traces_.since(std::max<std::int64_t>(cursor.traces, 0), kMostPoints);
     cursor.traces = traces_.count();
   }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <mutex>
 #include <thread>
+#include <tuple>
 
 #include "loop/experiment.hpp"
 #include "runtime/bus/bus.hpp"
 #include "view/source.hpp"
+#include "watch/tick_assembly.hpp"
 
 namespace mixloop {
 
@@ -25,35 +26,24 @@ class BusSource : public Source {
   std::string newest(Cursor& cursor) override;
 
  private:
-  static constexpr std::size_t kSlots = 64;  ///< ticks that messages may be apart
-
-  struct Slot {
-    std::int64_t state = -1, reference = -1, command = -1;  ///< the ticks that these are of
-    Pose pose;
-    Eigen::Vector3d desired;
-    std::vector<double> tau;
-  };
-  Slot& slot(std::int64_t k) { return slots_[static_cast<std::size_t>(k) % kSlots]; }
-
   void listen();
-  void on_state(Bytes bytes);
-  void on_reference(Bytes bytes);
-  void on_command(Bytes bytes);
+  template <class Message>
+  void on(Bytes bytes);
   void begin_session(const state_t& state);
-  void finish_tick(std::int64_t k);
+  void add_trace(const HeardTick& tick);
+  Pose pose_of(const HeardTick& tick) const;
 
   Experiment experiment_;
   std::int64_t config_;
   nlohmann::json path_;
   Bus bus_;
   StopSwitch stop_;
-  Inbox<state_t> state_;
-  Inbox<reference_t> reference_;
-  Inbox<command_t> command_;
+  std::tuple<Inbox<state_t>, Inbox<reference_t>, Inbox<command_t>> inboxes_;
 
   std::mutex mutex_;  ///< guards what follows
-  std::array<Slot, kSlots> slots_;
-  std::int64_t session_ = 0, latest_ = -1, finished_ = -1, version_ = 0;
+  TickAssembly ticks_;
+  std::int64_t traced_ = -1;  ///< the newest tick in traces_
+  std::int64_t version_ = 0;
   std::string note_;  ///< of the session
   Traces traces_;
   Skeleton errors_;   ///< of the listening thread

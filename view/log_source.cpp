@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/position_error.hpp"
-
 namespace mixloop {
 namespace {
 
@@ -48,13 +46,8 @@ void LogSource::keep(const Tick& tick) {
   rows_.insert(rows_.end(), tick.psi.begin(), tick.psi.end());
   rows_.insert(rows_.end(), tick.tau.begin(), tick.tau.end());
   rows_.insert(rows_.end(), tick.desired.position.begin(), tick.desired.position.end());
-  const auto& axes = run_.scene->end_effector.axes;
   traces_.add(
-      {.t = tick.t,
-       .error = static_cast<float>(position_error(tick.actual.position, tick.desired.position, axes)),
-       .tau = std::vector<float>(tick.tau.begin(), tick.tau.end()),
-       .place = {static_cast<float>(tick.actual.position[0]), static_cast<float>(tick.actual.position[1]),
-                 static_cast<float>(tick.actual.position[2])}});
+      trace_of(tick.t, tick.actual.position, tick.desired.position, run_.scene->end_effector.axes, tick.tau));
 }
 
 std::string LogSource::newest(Cursor& cursor) {

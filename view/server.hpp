@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 #include "view/source.hpp"
 
 namespace mixloop {

@@ -10,22 +10,15 @@
 #include <iterator>
 #include <set>
 
-#include "report/position_error.hpp"
+#include "loop/position_error.hpp"
+#include "view/write_list.hpp"
 
 namespace mixloop {
 namespace {
 
 void write(fmt::memory_buffer& out, const char* key, std::span<const double> values) {
-  const auto to = std::back_inserter(out);
-  fmt::format_to(to, ",\"{}\":[", key);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i > 0) out.push_back(',');
-    if (std::isfinite(values[i]))
-      fmt::format_to(to, "{}", values[i]);
-    else
-      fmt::format_to(to, "null");
-  }
-  out.push_back(']');
+  fmt::format_to(std::back_inserter(out), ",\"{}\":", key);
+  write_list(out, values);
 }
 
 }  // namespace
@@ -56,6 +49,15 @@ std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& t
   write(out, "error", {&error, 1});
   fmt::format_to(std::back_inserter(out), ",\"traces\":{}}}", traces.empty() ? "null" : traces);
   return fmt::to_string(out);
+}
+
+Trace trace_of(double t, const Eigen::Vector3d& actual, const Eigen::Vector3d& desired,
+               std::span<const int> axes, std::span<const double> tau) {
+  const Eigen::Vector3f place = actual.cast<float>();
+  return {.t = t,
+          .error = static_cast<float>(position_error(actual, desired, axes)),
+          .tau = {tau.begin(), tau.end()},
+          .place = {place[0], place[1], place[2]}};
 }
 
 nlohmann::json path_json(const std::vector<Eigen::Vector3d>& path, std::size_t most) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,11 @@ struct Pose {
 /// A pose as JSON {"k", "t", "session", "flags", "note", "psi", "q", "tau", "frames": [x, y, z, qx, qy, qz,
 /// qw, ...], "E", "desired", "error"}, with `traces` (JSON) beside it.
 std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& traces);
+
+/// What the plots draw of a tick: the end effector and where it should be (m, NaN where that isn't known),
+/// over the axes that the path prescribes, and the commanded torques.
+Trace trace_of(double t, const Eigen::Vector3d& actual, const Eigen::Vector3d& desired,
+               std::span<const int> axes, std::span<const double> tau);
 
 /// Where a browser has come to.
 struct Cursor {

@@ -8,6 +8,8 @@
 #include <functional>
 #include <iterator>
 
+#include "view/write_list.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -22,19 +24,6 @@ void add_extremes(std::vector<float>& out, std::size_t first, std::size_t last,
   }
   for (const std::size_t i : {std::min(least, greatest), std::max(least, greatest)})
     out.push_back(i == last ? NAN : at(i));
-}
-
-void write(fmt::memory_buffer& out, const std::vector<float>& values) {
-  const auto to = std::back_inserter(out);
-  char between = '[';
-  for (const float value : values) {
-    if (std::isfinite(value))
-      fmt::format_to(to, "{}{}", between, value);
-    else
-      fmt::format_to(to, "{}null", between);
-    between = ',';
-  }
-  fmt::format_to(to, "{}]", values.empty() ? "[" : "");
 }
 
 }  // namespace
@@ -78,11 +67,11 @@ std::string Traces::since(std::int64_t from, std::size_t most_points) const {
   for (std::size_t i = 0; i < points; ++i)
     fmt::format_to(to, "{}{:.6f}", i == 0 ? "" : ",", ticks_[first + (whole ? i : i * fresh / points)].t);
   fmt::format_to(to, "],\"error\":");
-  write(out, curve([&](std::size_t i) { return ticks_[i].error; }));
+  write_list(out, curve([&](std::size_t i) { return ticks_[i].error; }));
   fmt::format_to(to, ",\"tau\":[");
   for (std::size_t motor = 0; motor < n_; ++motor) {
     if (motor > 0) out.push_back(',');
-    write(out, curve([&](std::size_t i) { return ticks_[i].tau[motor]; }));
+    write_list(out, curve([&](std::size_t i) { return ticks_[i].tau[motor]; }));
   }
   fmt::format_to(to, "],\"way\":[");
   write_way(out, first, most_points);

@@ -9,17 +9,13 @@ namespace {
 template <class Message>
 bool decode_as(Bytes bytes, AnyMessage& kept) {
   if (!std::holds_alternative<Message>(kept)) kept.emplace<Message>();
-  const int size = static_cast<int>(bytes.size());
-  return std::get<Message>(kept).decode(bytes.data(), 0, size) == size;
+  return decode(bytes, std::get<Message>(kept));
 }
 
 // Calls for the one type whose fingerprint the bytes begin with.
 template <class... Messages>
 bool decode_by_fingerprint(Bytes bytes, std::variant<std::monostate, Messages...>& kept) {
-  std::int64_t fingerprint = 0;
-  for (int i = 0; i < 8; ++i)
-    fingerprint = static_cast<std::int64_t>(static_cast<std::uint64_t>(fingerprint) << 8 | bytes[i]);
-  return ((fingerprint == Messages::getHash() && decode_as<Messages>(bytes, kept)) || ...);
+  return ((fingerprint(bytes) == Messages::getHash() && decode_as<Messages>(bytes, kept)) || ...);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 namespace mixloop {
 
 void ChannelCount::tick(std::int64_t seq) {
+  if (!by_tick_) return;
   if (seq <= latest_) {
     ++repeated_;
     return;

@@ -31,6 +31,7 @@ class ChannelCount {
   void heard(Instant at) { ++received_, last_ = at; }
   void bad() { ++bad_; }
   void new_session() { latest_ = -1; }
+  /// The tick that the message was of; nothing where messages don't come by tick.
   void tick(std::int64_t seq);
 
   /// What was counted. Rates are over the time since the first call of the last second.

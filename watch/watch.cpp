@@ -4,29 +4,15 @@
 #include <cmath>
 
 #include "dynamics/equations.hpp"
+#include "loop/position_error.hpp"
 #include "runtime/protocol/config_hash.hpp"
 
 namespace mixloop {
 namespace {
 
-constexpr std::size_t kTicksKept = 128;  // a reference is one tick ahead, a truth one behind
-
 bool by_tick(Channel channel) {
   return channel == Channel::state || channel == Channel::reference || channel == Channel::command ||
          channel == Channel::truth;
-}
-
-const char* ending_of(std::int8_t reason) {
-  switch (reason) {
-    case sim_control_t::REASON_FINISHED:
-      return "finished";
-    case sim_control_t::REASON_INTERRUPTED:
-      return "interrupted";
-    case sim_control_t::REASON_STOPPED:
-      return "stopped";
-    default:
-      return "fault";
-  }
 }
 
 Heard heard(const Histogram& times) {
@@ -39,22 +25,7 @@ std::string why_safe(std::int32_t command_flags) {
   return (command_flags & command_t::FLAG_AFTERWARDS) != 0 ? ": it hears no newer state" : "";
 }
 
-// Types whose finiteness the wire doesn't know have nothing that is compared or drawn with it.
-template <class Message>
-bool sound(const Message& message) {
-  if constexpr (requires { is_finite(message); })
-    return is_finite(message);
-  else
-    return true;
-}
-
 }  // namespace
-
-const char* name_of(Channel channel) {
-  static constexpr const char* kNames[] = {"STATE",  "REFERENCE",   "COMMAND", "TRUTH",
-                                           "TIMING", "SIM_CONTROL", "FAULT",   "STOP"};
-  return kNames[static_cast<std::size_t>(channel)];
-}
 
 void Extreme::add(double value) {
   now = value;
@@ -62,9 +33,9 @@ void Extreme::add(double value) {
 }
 
 Watch::Watch(const std::string& prefix, std::optional<Experiment> experiment, Instant start)
-    : experiment_(std::move(experiment)), ticks_(kTicksKept) {
-  for (const Channel channel : kChannels)
-    counts_.emplace_back(prefix + name_of(channel), by_tick(channel), start);
+    : experiment_(std::move(experiment)) {
+  for (std::size_t i = 0; i < kChannelNames.size(); ++i)
+    counts_.emplace_back(prefix + kChannelNames[i], by_tick(static_cast<Channel>(i)), start);
   if (experiment_)
     kinematics_.emplace(equations_of(experiment_->scene, Evaluation::interpreter, {Purpose::end_effector}),
                         experiment_->plant_parameters);
@@ -73,60 +44,49 @@ Watch::Watch(const std::string& prefix, std::optional<Experiment> experiment, In
 Watch::~Watch() = default;
 
 void Watch::take(Channel channel, Bytes bytes, Instant at) {
-  ChannelCount& count = counts_[static_cast<std::size_t>(channel)];
+  const auto index = static_cast<std::size_t>(channel);
+  ChannelCount& count = counts_[index];
   count.heard(at);
   if (channel == Channel::stop) {  // the channel alone is the message
     stopped_ = true;
     return;
   }
-  const auto taken = [&] {
-    if (!decode(bytes, message_)) return false;
-    switch (channel) {
-      case Channel::state:
-        return take_as<state_t>(at);
-      case Channel::reference:
-        return take_as<reference_t>(at);
-      case Channel::command:
-        return take_as<command_t>(at);
-      case Channel::truth:
-        return take_as<truth_t>(at);
-      case Channel::timing:
-        return take_as<timing_t>(at);
-      case Channel::sim_control:
-        return take_as<sim_control_t>(at);
-      default:
-        return std::holds_alternative<fault_t>(message_);
-    }
+  const auto hear_it = [&]<class Message>(const Message& message) {
+    if constexpr (requires { on(message, at); })
+      return hear(message, count, at);
+    else
+      return true;  // a fault is for the plant alone
   };
-  if (!taken()) count.bad();
+  if (!decode(bytes, message_) || message_.index() != index + 1 || !std::visit(hear_it, message_))
+    count.bad();
 }
 
-/// Hands the message on where it is of this type, sound, and of the run that is watched.
+/// Hands the message on where it is sound and of the run that is watched.
 template <class Message>
-bool Watch::take_as(Instant at) {
-  const Message* message = std::get_if<Message>(&message_);
-  if (!message || message->n < 1 || !sound(*message)) return false;
+bool Watch::hear(const Message& message, ChannelCount& count, Instant at) {
+  if (message.n < 1 || !is_finite(message)) return false;
   if constexpr (std::is_same_v<Message, state_t>)
-    if (session_.would_follow(message->session, at) && session_.follow(message->session, at)) begin(*message);
-  if (message->session != session_.current()) {
+    if (session_.would_follow(message.session, at) && session_.follow(message.session, at)) begin(message);
+  if (message.session != session_.current()) {
     if (heard_state()) ++other_sessions_;
     return true;
   }
-  if (static_cast<std::size_t>(message->n) != n_) return false;
-  on(*message, at);
+  if (static_cast<std::size_t>(message.n) != n_) return false;
+  count.tick(message.seq);
+  on(message, at);
   return true;
 }
 
 void Watch::begin(const state_t& state) {
   n_ = static_cast<std::size_t>(state.n);
   for (ChannelCount& count : counts_) count.new_session();
-  ticks_.assign(kTicksKept, {});
+  ticks_.begin(state.session, state.seq);
   latest_ = latest_command_ = -1;
   command_flags_ = truth_flags_ = 0;
   phase_ = reference_t::PHASE_PATH;
   config_ = state.config;
   stopped_ = false;
-  ending_.clear();
+  ending_.reset();
   timing_.reset();
   intervals_ = answers_ = {};
   forget_the_worst();
@@ -142,37 +102,24 @@ void Watch::forget_the_worst() {
   for (MotorView& motor : motors_) motor.error.worst = motor.torque.worst = 0;
 }
 
-Watch::Tick& Watch::tick(std::int64_t seq) {
-  Tick& kept = ticks_[static_cast<std::size_t>(static_cast<std::uint64_t>(seq) % kTicksKept)];
-  if (kept.seq != seq) kept = {.seq = seq};
-  return kept;
-}
-
 void Watch::on(const state_t& state, Instant at) {
-  counts_[static_cast<std::size_t>(Channel::state)].tick(state.seq);
   if (state.seq <= latest_) return;
   if (latest_ >= 0) intervals_.add(at - state_at_);
   latest_ = state.seq;
   state_at_ = at;
   state_flags_ = state.flags;
   plant_time_ = 1e-6 * static_cast<double>(state.utime);
-  Tick& kept = tick(state.seq);
-  kept.utime = state.utime;
-  kept.psi = state.psi_measured;
-  compare_motors(kept);
+  if (ticks_.add(state) == Taken::fresh) compare_motors(*ticks_.find(state.seq));
 }
 
 void Watch::on(const reference_t& reference, Instant) {
-  counts_[static_cast<std::size_t>(Channel::reference)].tick(reference.seq);
-  Tick& kept = tick(reference.seq);
-  if (kept.reference) return;
-  kept.reference = reference;
-  compare_motors(kept);
-  compare_position(kept);
+  if (ticks_.add(reference) != Taken::fresh) return;
+  const HeardTick& tick = *ticks_.find(reference.seq);
+  compare_motors(tick);
+  compare_with_truth(tick);
 }
 
 void Watch::on(const command_t& command, Instant at) {
-  counts_[static_cast<std::size_t>(Channel::command)].tick(command.seq);
   command_flags_ = command.flags;
   if (command.seq == latest_ && command.seq > latest_command_) answers_.add(at - state_at_);
   latest_command_ = std::max(latest_command_, command.seq);
@@ -180,14 +127,9 @@ void Watch::on(const command_t& command, Instant at) {
 }
 
 void Watch::on(const truth_t& truth, Instant) {
-  counts_[static_cast<std::size_t>(Channel::truth)].tick(truth.seq);
   truth_flags_ = truth.flags;
   for (std::size_t i = 0; i < n_; ++i) motors_[i].applied = truth.tau_applied[i];
-  if (kinematics_ || n_ != 3) return;
-  Tick& kept = tick(truth.seq);
-  kept.utime = truth.utime;
-  kept.position = {truth.position[0], truth.position[1], truth.position[2]};
-  compare_position(kept);
+  if (ticks_.add(truth) == Taken::fresh) compare_with_truth(*ticks_.find(truth.seq));
 }
 
 void Watch::on(const timing_t& timing, Instant) { timing_ = timing; }
@@ -198,47 +140,51 @@ void Watch::on(const sim_control_t& control, Instant) {
   if (control.action == sim_control_t::ACTION_RESET && control.seq != 0) session_.go_over_to(control.seq);
 }
 
-void Watch::compare_motors(Tick& kept) {
-  if (!kept.psi || !kept.reference) return;
-  phase_ = kept.reference->phase;
+void Watch::compare_motors(const HeardTick& tick) {
+  const auto* state = tick.get<state_t>();
+  const auto* reference = tick.get<reference_t>();
+  if (!state || !reference) return;
+  phase_ = reference->phase;
   const bool counts = phase_ != reference_t::PHASE_MOVE_TO_START;
   for (std::size_t i = 0; i < n_; ++i) {
-    const double error = kept.reference->psi_desired[i] - (*kept.psi)[i];
+    const double error = reference->psi_desired[i] - state->psi_measured[i];
     motors_[i].error.now = error;
     if (counts) motors_[i].error.add(error);
   }
   if (!kinematics_ || static_cast<std::size_t>(kinematics_->scene().n()) != n_) return;
   const std::vector<double> zero(n_, 0.0);
   std::vector<double> hand = kinematics_->outputs(Purpose::end_effector);
-  const double t = static_cast<double>(kept.seq) / experiment_->rate_hz;
-  kinematics_->evaluate(Purpose::end_effector, {*kept.psi, zero, zero, t}, hand);
-  kept.position = {hand[0], hand[1], hand[2]};
-  compare_position(kept);
+  const double t = static_cast<double>(tick.k) / experiment_->rate_hz;
+  kinematics_->evaluate(Purpose::end_effector, {state->psi_measured, zero, zero, t}, hand);
+  compare_position(Eigen::Map<const Eigen::Vector3d>(hand.data()), *reference, state->utime);
 }
 
-void Watch::compare_position(Tick& kept) {
-  if (!kept.position || !kept.reference || kept.reference->phase == reference_t::PHASE_MOVE_TO_START) return;
+void Watch::compare_with_truth(const HeardTick& tick) {
+  const auto* truth = tick.get<truth_t>();
+  const auto* reference = tick.get<reference_t>();
+  if (truth && reference && !kinematics_ && n_ == 3)
+    compare_position(Eigen::Map<const Eigen::Vector3d>(truth->position), *reference, truth->utime);
+}
+
+void Watch::compare_position(const Eigen::Vector3d& position, const reference_t& reference,
+                             std::int64_t utime) {
+  if (reference.phase == reference_t::PHASE_MOVE_TO_START) return;
   static const std::vector<int> kAll = {0, 1, 2};
-  double squared = 0;
-  for (const int axis : experiment_ ? experiment_->scene->end_effector.axes : kAll) {
-    const auto a = static_cast<std::size_t>(axis);
-    const double error = (*kept.position)[a] - kept.reference->position_desired[a];
-    squared += error * error;
-  }
   if (!position_error_) position_error_.emplace();
   const double worst = position_error_->worst;
-  position_error_->add(std::sqrt(squared));
-  if (position_error_->worst > worst) worst_at_ = 1e-6 * static_cast<double>(kept.utime);
+  position_error_->add(position_error(position, Eigen::Map<const Eigen::Vector3d>(reference.position_desired),
+                                      experiment_ ? experiment_->scene->end_effector.axes : kAll));
+  if (position_error_->worst > worst) worst_at_ = 1e-6 * static_cast<double>(utime);
 }
 
-std::string Watch::condition(Instant at) const {
-  if (!heard_state()) return "silent";
-  if (!ending_.empty()) return "ended";
-  if (stopped_) return "stopped";
-  if (at - state_at_ > std::chrono::seconds(1)) return "silent";
-  if (state_flags_ & state_t::FLAG_SAFE_STATE) return "safe_state";
-  if (phase_ == reference_t::PHASE_MOVE_TO_START) return "moving_to_start";
-  return phase_ == reference_t::PHASE_HOLD ? "holding" : "on_path";
+Condition Watch::condition(Instant at) const {
+  if (!heard_state()) return Condition::silent;
+  if (ending_) return Condition::ended;
+  if (stopped_) return Condition::stopped;
+  if (at - state_at_ > std::chrono::seconds(1)) return Condition::silent;
+  if (state_flags_ & state_t::FLAG_SAFE_STATE) return Condition::safe_state;
+  if (phase_ == reference_t::PHASE_MOVE_TO_START) return Condition::moving_to_start;
+  return phase_ == reference_t::PHASE_HOLD ? Condition::holding : Condition::on_path;
 }
 
 std::vector<std::string> Watch::warnings() const {

@@ -2,28 +2,20 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "loop/experiment.hpp"
-#include "mixloop/timing_t.hpp"
 #include "runtime/clock/histogram.hpp"
+#include "runtime/protocol/ending.hpp"
 #include "runtime/protocol/session.hpp"
 #include "watch/any_message.hpp"
 #include "watch/channel_count.hpp"
+#include "watch/tick_assembly.hpp"
 
 namespace mixloop {
-
-/// The channels of the bus, in the order in which they are shown.
-enum class Channel : std::uint8_t { state, reference, command, truth, timing, sim_control, fault, stop };
-inline constexpr std::array kChannels = {Channel::state, Channel::reference, Channel::command,
-                                         Channel::truth, Channel::timing,    Channel::sim_control,
-                                         Channel::fault, Channel::stop};
-/// "STATE" and so on, without the prefix.
-const char* name_of(Channel channel);
 
 /// A value now, and the one of the largest magnitude so far.
 struct Extreme {
@@ -44,6 +36,11 @@ struct Heard {
   nanoseconds p50{0}, p99{0}, max{0};
 };
 
+/// How a run stands.
+enum class Condition : std::uint8_t { silent, on_path, moving_to_start, holding, safe_state, stopped, ended };
+inline constexpr std::array kConditionNames = {
+    "silent", "on_path", "moving_to_start", "holding", "safe_state", "stopped", "ended"};
+
 /// All that a viewer shows, at one instant.
 struct WatchView {
   std::vector<ChannelView> channels;
@@ -52,8 +49,8 @@ struct WatchView {
   std::int64_t tick = 0;
   double plant_time = 0;  ///< s
   bool real_time = false;
-  std::string condition;  ///< silent, on_path, moving_to_start, holding, safe_state, stopped, ended
-  std::string ending;     ///< of `ended`: finished, interrupted, stopped, fault
+  Condition condition{};
+  std::optional<Ending> ending;  ///< where it has ended
   std::vector<std::string> warnings;
 
   std::string position_source;            ///< "experiment", "truth", or "" where there is no position error
@@ -78,16 +75,9 @@ class Watch {
   void forget_the_worst();
   WatchView view(Instant at);
   bool heard_state() const { return session_.current() != 0; }
-  bool ended() const { return !ending_.empty(); }  ///< the plant has said END
+  bool ended() const { return ending_.has_value(); }  ///< the plant has said END
 
  private:
-  struct Tick {
-    std::int64_t seq = -1, utime = 0;
-    std::optional<std::vector<double>> psi;
-    std::optional<reference_t> reference;
-    std::optional<std::array<double, 3>> position;
-  };
-
   void on(const state_t& state, Instant at);
   void on(const reference_t& reference, Instant at);
   void on(const command_t& command, Instant at);
@@ -95,12 +85,12 @@ class Watch {
   void on(const timing_t& timing, Instant at);
   void on(const sim_control_t& control, Instant at);
   template <class Message>
-  bool take_as(Instant at);
+  bool hear(const Message& message, ChannelCount& count, Instant at);
   void begin(const state_t& state);
-  Tick& tick(std::int64_t seq);
-  void compare_motors(Tick& tick);
-  void compare_position(Tick& tick);
-  std::string condition(Instant at) const;
+  void compare_motors(const HeardTick& tick);
+  void compare_with_truth(const HeardTick& tick);
+  void compare_position(const Eigen::Vector3d& position, const reference_t& reference, std::int64_t utime);
+  Condition condition(Instant at) const;
   std::vector<std::string> warnings() const;
 
   std::optional<Experiment> experiment_;
@@ -109,7 +99,7 @@ class Watch {
   AnyMessage message_;
   SessionFollower session_{0};
   std::size_t n_ = 0;
-  std::vector<Tick> ticks_;
+  TickAssembly ticks_{{}};
   std::int64_t latest_ = -1, latest_command_ = -1;
   Instant state_at_{0};
   std::int32_t state_flags_ = 0, command_flags_ = 0, truth_flags_ = 0;
@@ -117,7 +107,7 @@ class Watch {
   std::int64_t config_ = 0;
   double plant_time_ = 0;
   bool stopped_ = false;
-  std::string ending_;
+  std::optional<Ending> ending_;
   std::uint64_t other_sessions_ = 0;
   std::optional<Extreme> position_error_;
   double worst_at_ = 0;

@@ -42,9 +42,8 @@ nlohmann::json by_motor(const WatchView& view, const std::function<nlohmann::jso
 // The message's own names, times in seconds.
 nlohmann::json timing_json(const timing_t& timing) {
   nlohmann::json json;
-  visit_fields(timing, [&json](const std::string& name, const char*, const auto& value) {
-    const bool time = name == "slipped" || name.starts_with("round_trip") || name.starts_with("wake_up");
-    if (time)
+  visit_fields(timing, [&json](const char* name, std::string_view said, const auto& value) {
+    if (said.starts_with("ns"))
       json[name] = 1e-9 * static_cast<double>(value);
     else
       json[name] = value;
@@ -63,8 +62,8 @@ nlohmann::json watch_json(const WatchView& view) {
           {"tick", view.tick},
           {"plant_time", view.plant_time},
           {"mode", view.real_time ? "real_time" : "lockstep"},
-          {"condition", view.condition},
-          {"ending", view.ending},
+          {"condition", kConditionNames[static_cast<std::size_t>(view.condition)]},
+          {"ending", ending_text(view)},
           {"warnings", view.warnings},
           {"position_error", position ? nlohmann::json(position->now) : nlohmann::json()},
           {"max_position_error", position ? nlohmann::json(position->worst) : nlohmann::json()},

@@ -33,25 +33,31 @@ Line title(const WatchView& view) {
                                            view.plant_time, view.real_time ? "real time" : "lockstep")}};
 }
 
-Line status(const WatchView& view) {
+Piece condition(const WatchView& view) {
   const auto age = view.channels[static_cast<std::size_t>(Channel::state)].age;
-  Piece condition;
-  if (view.condition == "silent")
-    condition = {age ? "no STATE for " + duration_text(*age)
-                     : "nothing heard of a plant yet: is this the plant's network namespace?",
-                 Style::warning};
-  else if (view.condition == "ended")
-    condition = {"ended: " + view.ending, view.ending == "finished" ? Style::good : Style::warning};
-  else if (view.condition == "stopped")
-    condition = {"STOPPED", Style::warning};
-  else if (view.condition == "safe_state")
-    condition = {"SAFE STATE: the plant ignores commands until a reset", Style::warning};
-  else
-    condition = {view.condition == "holding"           ? "holding the end of the path"
-                 : view.condition == "moving_to_start" ? "moving to the path's start"
-                                                       : "on the path",
-                 Style::good};
-  Line line = {condition};
+  switch (view.condition) {
+    case Condition::silent:
+      return {age ? "no STATE for " + duration_text(*age)
+                  : "nothing heard of a plant yet: is this the plant's network namespace?",
+              Style::warning};
+    case Condition::ended:
+      return {"ended: " + ending_text(view), view.ending == Ending::finished ? Style::good : Style::warning};
+    case Condition::stopped:
+      return {"STOPPED", Style::warning};
+    case Condition::safe_state:
+      return {"SAFE STATE: the plant ignores commands until a reset", Style::warning};
+    case Condition::holding:
+      return {"holding the end of the path", Style::good};
+    case Condition::moving_to_start:
+      return {"moving to the path's start", Style::good};
+    case Condition::on_path:
+      break;
+  }
+  return {"on the path", Style::good};
+}
+
+Line status(const WatchView& view) {
+  Line line = {condition(view)};
   for (const std::string& warning : view.warnings) line.push_back({"; ! " + warning, Style::warning});
   if (view.other_sessions > 0)
     line.push_back({fmt::format("; ! {} messages of other runs", view.other_sessions), Style::warning});
@@ -126,9 +132,10 @@ Line times(const char* what, const std::string& p50, const std::string& p99, con
   return {{fmt::format("{:<24} {:>9} {:>9} {:>9}", what, p50, p99, max)}};
 }
 
-std::int64_t rejected(const timing_t& t) {
-  return t.rejected_length + t.rejected_fingerprint + t.rejected_dimension + t.rejected_not_finite +
-         t.rejected_session + t.rejected_config + t.rejected_tick + t.rejected_stale;
+std::int64_t rejected(const timing_t& timing) {
+  std::int64_t all = 0;
+  for (const RejectRow& row : kRejects) all += timing.*row.timed;
+  return all;
 }
 
 std::vector<Line> timing_lines(const WatchView& view) {
@@ -170,6 +177,11 @@ void cut(std::vector<Line>& lines, std::size_t width, std::size_t height) {
 }
 
 }  // namespace
+
+std::string ending_text(const WatchView& view) {
+  if (!view.ending) return "";
+  return view.ending == Ending::broken_off ? "fault" : std::string(name(*view.ending));
+}
 
 std::string to_text(const Line& line) {
   std::string text;

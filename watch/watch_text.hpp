@@ -19,6 +19,9 @@ struct Piece {
 using Line = std::vector<Piece>;
 std::string to_text(const Line& line);
 
+/// finished, interrupted, stopped or fault; empty before the end.
+std::string ending_text(const WatchView& view);
+
 /// A screen of this size: at most `height` lines, none longer than `width`, in ASCII. Needs 80 columns, and
 /// 24 lines for three motors; where there is less room, the motors that don't fit are counted, then lines are
 /// cut.

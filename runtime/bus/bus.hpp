@@ -8,7 +8,7 @@
 
 #include "runtime/bus/wire.hpp"
 #include "runtime/clock/clock.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 

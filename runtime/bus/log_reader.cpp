@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "notation/errors.hpp"
+#include "runtime/bus/big_endian.hpp"
 
 namespace mixloop {
 namespace {
@@ -16,12 +17,6 @@ constexpr std::uint8_t kMagic[] = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kHeader = sizeof kMagic + 2 * 8 + 2 * 4;
 constexpr std::size_t kBlock = 1 << 20;
 constexpr std::uint64_t kLongestChannel = 1000;  // LCM's own bound on what it reads
-
-std::uint64_t big_endian(const std::uint8_t* at, int bytes) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < bytes; ++i) value = value << 8 | at[i];
-  return value;
-}
 
 bool is_magic(const std::uint8_t* at) { return std::equal(std::begin(kMagic), std::end(kMagic), at); }
 
@@ -86,15 +81,15 @@ const LogEvent* LogReader::next() {
 // follows.
 bool LogReader::read_event() {
   if (!have(kHeader) || !is_magic(&window_[at_])) return false;
-  const std::uint64_t channel_length = big_endian(&window_[at_ + 20], 4),
-                      data_length = big_endian(&window_[at_ + 24], 4);
+  const std::uint64_t channel_length = big_endian<std::uint32_t>(&window_[at_ + 20]),
+                      data_length = big_endian<std::uint32_t>(&window_[at_ + 24]);
   if (channel_length == 0 || channel_length >= kLongestChannel) return false;
   const std::size_t length = kHeader + channel_length + data_length;
   if (!have(length)) return false;
   if (have(length + sizeof kMagic) && !is_magic(&window_[at_ + length])) return false;
   const std::uint8_t* at = &window_[at_];
-  event_ = {.number = static_cast<std::int64_t>(big_endian(at + 4, 8)),
-            .received_us = static_cast<std::int64_t>(big_endian(at + 12, 8)),
+  event_ = {.number = big_endian<std::int64_t>(at + 4),
+            .received_us = big_endian<std::int64_t>(at + 12),
             .channel = {reinterpret_cast<const char*>(at + kHeader), channel_length},
             .data = {at + kHeader + channel_length, data_length}};
   at_ += length;

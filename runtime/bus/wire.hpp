@@ -1,55 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <type_traits>
 #include <vector>
 
-#include "mixloop/command_t.hpp"
-#include "mixloop/fault_t.hpp"
-#include "mixloop/reference_t.hpp"
-#include "mixloop/sim_control_t.hpp"
-#include "mixloop/state_t.hpp"
-#include "mixloop/stop_t.hpp"
-#include "mixloop/timing_t.hpp"
-#include "mixloop/truth_t.hpp"
+#include "mixloop/fields.hpp"
+#include "runtime/bus/rejects.hpp"
 
 namespace mixloop {
 
-/// Why a received message was dropped.
-enum class Reject : std::uint8_t {
-  length,       ///< not the length that this type has for the scene's n
-  fingerprint,  ///< another type, or another version of it
-  dimension,    ///< n isn't the scene's
-  not_finite,   ///< NaN or infinity in it
-  session,      ///< of another run
-  config,       ///< of another rate, mechanism, path or parameters
-  tick,         ///< a tick that can't be: negative, past the end, from the future
-  stale,        ///< a tick that is over: doubled, overtaken or replayed
-};
-
-inline constexpr std::array kRejects = {Reject::length,     Reject::fingerprint, Reject::dimension,
-                                        Reject::not_finite, Reject::session,     Reject::config,
-                                        Reject::tick,       Reject::stale};
-
-std::string_view name(Reject cause);
-
-/// Dropped messages by cause.
-struct Rejects {
-  std::uint64_t length = 0, fingerprint = 0, dimension = 0, not_finite = 0, session = 0, config = 0, tick = 0,
-                stale = 0;
-
-  void count(Reject cause);
-  std::uint64_t of(Reject cause) const;
-  std::uint64_t total() const;
-};
-
 using Bytes = std::span<const std::uint8_t>;
 
-/// What every message begins with.
+/// What every message begins with, after the fingerprint of its type.
 struct Header {
   std::int32_t n = 0;
   std::int64_t utime = 0, seq = 0, session = 0, config = 0;
@@ -57,6 +22,9 @@ struct Header {
 
 /// Reads the header off the raw bytes; nothing where they are too few.
 std::optional<Header> peek(Bytes bytes);
+
+/// The fingerprint that the bytes begin with, as a type's getHash() gives it; 0 where they are too few.
+std::int64_t fingerprint(Bytes bytes);
 
 template <class Message>
 void set_header(Message& message, const Header& header) {
@@ -74,34 +42,27 @@ Header header_of(const Message& m) {
 
 /// A message of this type for n motors: its arrays have their sizes, everything is zero.
 template <class Message>
-Message blank(int n);
-
-template <>
-state_t blank(int n);
-template <>
-reference_t blank(int n);
-template <>
-command_t blank(int n);
-template <>
-truth_t blank(int n);
-template <>
-sim_control_t blank(int n);
-template <>
-stop_t blank(int n);
-template <>
-fault_t blank(int n);
-template <>
-timing_t blank(int n);
+Message blank(int n) {
+  Message message{};
+  message.n = n;
+  visit_fields(message, [n]<class Value>(const char*, const char*, Value& value) {
+    if constexpr (std::is_same_v<Value, std::vector<double>>) value.assign(static_cast<std::size_t>(n), 0.0);
+  });
+  return message;
+}
 
 /// Whether every number in the message is finite.
-bool is_finite(const state_t& message);
-bool is_finite(const reference_t& message);
-bool is_finite(const command_t& message);
-bool is_finite(const truth_t& message);
-bool is_finite(const sim_control_t& message);
-bool is_finite(const stop_t& message);
-bool is_finite(const fault_t& message);
-bool is_finite(const timing_t& message);
+template <class Message>
+bool is_finite(const Message& message) {
+  double sum = 0;  // x - x is zero for a finite x, NaN otherwise
+  visit_fields(message, [&sum]<class Value>(const char*, const char*, const Value& value) {
+    if constexpr (std::is_same_v<Value, double>)
+      sum += value - value;
+    else if constexpr (!std::is_integral_v<Value>)
+      for (const double x : value) sum += x - x;
+  });
+  return sum == 0;
+}
 
 /// Encodes a kept message into a kept buffer; neither allocates after construction.
 template <class Message>
@@ -124,9 +85,19 @@ class Outbox {
   std::vector<std::uint8_t> buffer_;
 };
 
+/// Checks the raw bytes against a type's fingerprint and n and the length that follows from them: a generated
+/// decoder would allocate whatever n claims. The cause of a rejection, or nothing.
+std::optional<Reject> check_raw(Bytes bytes, std::int64_t type, int n, std::size_t length);
+
+/// Decodes bytes into a kept message; false where they aren't of its type to the last one.
+template <class Message>
+bool decode(Bytes bytes, Message& message) {
+  const int size = static_cast<int>(bytes.size());
+  return message.decode(bytes.data(), 0, size) == size;
+}
+
 /// Checks received bytes and decodes them into a kept message, without allocating: length, fingerprint and n
-/// on the raw bytes (a generated decoder would allocate whatever n claims), then that all is finite. Session,
-/// config and tick are the caller's to check.
+/// on the raw bytes, then that all is finite. Session, config and tick are the caller's to check.
 template <class Message>
 class Inbox {
  public:
@@ -135,7 +106,12 @@ class Inbox {
 
   /// The cause of a rejection, or nothing: then `message` is what the bytes say. A rejected message may
   /// leave anything in `message`, so swap out what must be kept.
-  std::optional<Reject> read(Bytes bytes);
+  std::optional<Reject> read(Bytes bytes) {
+    if (const auto cause = check_raw(bytes, Message::getHash(), n_, length_)) return cause;
+    if (!decode(bytes, message)) return Reject::length;
+    if (!is_finite(message)) return Reject::not_finite;
+    return std::nullopt;
+  }
 
   Message message;
 
@@ -152,14 +128,6 @@ inline std::int32_t extrapolation_flags(std::int64_t ahead) {
 inline std::int64_t extrapolated_by(std::int32_t flags) {
   return (flags & command_t::FLAG_EXTRAPOLATED) != 0 ? flags >> command_t::EXTRAPOLATED_SHIFT : 0;
 }
-
-extern template class Inbox<state_t>;
-extern template class Inbox<reference_t>;
-extern template class Inbox<command_t>;
-extern template class Inbox<truth_t>;
-extern template class Inbox<sim_control_t>;
-extern template class Inbox<stop_t>;
-extern template class Inbox<fault_t>;
-extern template class Inbox<timing_t>;
+inline constexpr std::int64_t kFarthestExtrapolated = 32767;  ///< ticks: more the flags can't say
 
 }  // namespace mixloop

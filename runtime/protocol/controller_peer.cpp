@@ -12,8 +12,7 @@
 namespace mixloop {
 namespace {
 
-constexpr double kReferenceWait = 0.25;    // ticks: what is missing by then is extrapolated
-constexpr std::int64_t kFarthest = 32767;  // ticks: what the command's flags can say
+constexpr double kReferenceWait = 0.25;  // ticks: what is missing by then is extrapolated
 
 }  // namespace
 
@@ -131,7 +130,7 @@ const reference_t* ControllerPeer::newest_before(std::int64_t tick) const {
   const Kept* newest = nullptr;
   for (const Kept& k : ring_)
     if (k.tick >= 0 && k.tick < tick && (newest == nullptr || k.tick > newest->tick)) newest = &k;
-  const std::int64_t farthest = std::min<std::int64_t>(options_.max_missed, kFarthest);
+  const std::int64_t farthest = std::min<std::int64_t>(options_.max_missed, kFarthestExtrapolated);
   return newest != nullptr && tick - newest->tick <= farthest ? &newest->message : nullptr;
 }
 

@@ -10,19 +10,6 @@
 namespace mixloop {
 namespace {
 
-Ending ending_of(std::int8_t reason) {
-  switch (reason) {
-    case sim_control_t::REASON_FINISHED:
-      return Ending::finished;
-    case sim_control_t::REASON_INTERRUPTED:
-      return Ending::interrupted;
-    case sim_control_t::REASON_STOPPED:
-      return Ending::stopped;
-    default:
-      return Ending::broken_off;
-  }
-}
-
 bool holds(const state_t& state) { return (state.flags & state_t::FLAG_HOLD) != 0; }
 
 std::string whole_milliseconds(nanoseconds t) {

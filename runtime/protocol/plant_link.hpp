@@ -8,7 +8,7 @@
 #include "runtime/bus/bus.hpp"
 #include "runtime/bus/wire.hpp"
 #include "runtime/clock/clock.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 #include "runtime/protocol/config_agreement.hpp"
 #include "runtime/protocol/ending.hpp"
 #include "runtime/protocol/session.hpp"

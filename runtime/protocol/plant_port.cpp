@@ -2,7 +2,6 @@
 #include "runtime/protocol/plant_port.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "notation/errors.hpp"
@@ -19,21 +18,6 @@ constexpr auto kRepeatInterval = std::chrono::milliseconds(1);
 // A plant that is held by the operator goes on being heard.
 constexpr auto kHeldInterval = std::chrono::milliseconds(100);
 
-std::int8_t end_reason(Ending ending) {
-  switch (ending) {
-    case Ending::finished:
-      return sim_control_t::REASON_FINISHED;
-    case Ending::interrupted:
-      return sim_control_t::REASON_INTERRUPTED;
-    case Ending::stopped:
-      return sim_control_t::REASON_STOPPED;
-    case Ending::reset:
-    case Ending::broken_off:
-      break;
-  }
-  return sim_control_t::REASON_FAULT;
-}
-
 PlantOptions with_session(PlantOptions options) {
   if (options.session == 0) options.session = draw_session();
   return options;
@@ -41,18 +25,7 @@ PlantOptions with_session(PlantOptions options) {
 
 }  // namespace
 
-Ending ending_of(PlantPort::Answer answer) {
-  switch (answer) {
-    case PlantPort::Answer::interrupted:
-      return Ending::interrupted;
-    case PlantPort::Answer::reset:
-      return Ending::reset;
-    default:
-      return Ending::stopped;
-  }
-}
-
-PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& options, const PlantSide& plant,
+PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& options, PlantSide& plant,
                      std::int32_t state_flags, nanoseconds slack)
     : bus_(bus),
       stop_(stop),
@@ -70,8 +43,6 @@ PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& optio
       truth_channel_(bus.channel("TRUTH")),
       control_channel_(bus.channel("SIM_CONTROL")),
       command_channel_(bus.channel("COMMAND")) {
-  if (!plant_.measure || (options_.truth && !plant_.truth))
-    throw std::logic_error("a function of the plant's side is missing");
   report.session = options_.session;
   const Header header{.n = options_.n, .session = options_.session, .config = options_.config};
   set_header(state_.message, header);

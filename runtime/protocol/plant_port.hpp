@@ -6,10 +6,11 @@
 
 #include "runtime/bus/bus.hpp"
 #include "runtime/clock/clock.hpp"
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 #include "runtime/protocol/conductor.hpp"
 #include "runtime/protocol/config_agreement.hpp"
 #include "runtime/protocol/ending.hpp"
+#include "runtime/protocol/plant_options.hpp"
 #include "runtime/protocol/plant_side.hpp"
 #include "runtime/protocol/timing_sender.hpp"
 
@@ -22,7 +23,7 @@ class PlantPort {
   /// Why a wait is over.
   enum class Answer : std::uint8_t { command, due, interrupted, stopped, reset };
 
-  PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& options, const PlantSide& plant,
+  PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& options, PlantSide& plant,
             std::int32_t state_flags, nanoseconds slack);
   ~PlantPort();
   PlantPort(const PlantPort&) = delete;
@@ -77,7 +78,7 @@ class PlantPort {
   Bus& bus_;
   const StopSwitch& stop_;
   PlantOptions options_;
-  const PlantSide& plant_;
+  PlantSide& plant_;
   std::int32_t state_flags_;
   Pacer pacer_;
   Conductor conductor_;
@@ -99,8 +100,5 @@ class PlantPort {
   bool planner_heard_ = false;
   ConfigAgreement agreement_;
 };
-
-/// The ending that an answer means, beside `command` and `due`.
-Ending ending_of(PlantPort::Answer answer);
 
 }  // namespace mixloop

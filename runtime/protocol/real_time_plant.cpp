@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "notation/errors.hpp"
 
@@ -25,38 +24,20 @@ void require_real_time_speed(double speed) {
       "--realtime, goes as fast as it can)");
 }
 
-RealTimePlant::RealTimePlant(Bus& bus, const StopSwitch& stop, const PlantOptions& options, PlantSide plant)
-    : plant_(std::move(plant)),
-      options_(options),
-      port_(bus, stop, options, plant_, state_t::FLAG_REAL_TIME, quarter_tick(options)) {
-  if (!plant_.command || !plant_.finish_tick || !plant_.make_safe || !plant_.is_safe || !plant_.deadlines)
-    throw std::logic_error("a function of the plant's side is missing");
-}
-
-Ending RealTimePlant::run() {
-  try {
-    const Ending ending = run_ticks();
-    if (ending != Ending::reset) port_.send_end(ending);
-    return ending;
-  } catch (...) {
-    port_.send_end(Ending::broken_off);
-    throw;
-  }
-}
+RealTimePlant::RealTimePlant(Bus& bus, const StopSwitch& stop, const PlantOptions& options,
+                             RealTimeSide& plant)
+    : PlantRunner(bus, stop, options, plant, state_t::FLAG_REAL_TIME, quarter_tick(options)), plant_(plant) {}
 
 Ending RealTimePlant::run_ticks() {
   using Answer = PlantPort::Answer;
   if (!port_.publish_state(0)) return Ending::broken_off;
-  if (const Answer a = port_.wait_for_command(); a != Answer::command) return ending_of(a);
+  if (const Answer a = port_.wait_for_command(); a != Answer::command) return ending_at(0, a);
   const Instant start = now();
   port_.start(start);
   take_command(0);
 
   for (std::int64_t k = 0; before_end(k); ++k) {
-    if (const Answer a = live_through(k); a != Answer::due) {
-      const bool held_on = k > options_.last_tick && a != Answer::reset;
-      return held_on ? Ending::finished : ending_of(a);
-    }
+    if (const Answer a = live_through(k); a != Answer::due) return ending_at(k, a);
     if (k <= options_.last_tick) port_.report.wall_time = now() - start;
     if (port_.report.ticks_done <= k) return Ending::broken_off;
     if (!before_end(k + 1)) break;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "runtime/protocol/plant_port.hpp"
+#include "runtime/protocol/plant_runner.hpp"
 
 namespace mixloop {
 
@@ -10,38 +10,24 @@ void require_real_time_speed(double speed);
 
 /// The plant's side of real time: ticks come by an absolute clock, whether or not commands do. It waits only
 /// at tick 0, for the first command. From then on a command acts when it arrives, one that isn't there when
-/// its tick ends is missed, and too many missed in a row bring the safe state (both are PlantSide's to do).
+/// its tick ends is missed, and too many missed in a row bring the safe state (both are RealTimeSide's to
+/// do).
 ///
 /// A plant that wakes up late by less than a quarter of a tick catches up. Later than that, plant time slips
 /// by as much, which is counted: no fault of the controller's. Having slept through more than `max_missed`
 /// ticks, it goes into its safe state.
-///
-/// After start-up a tick costs no allocation, lock or throw of ours.
-class RealTimePlant {
+class RealTimePlant final : public PlantRunner {
  public:
   /// Throws InputError as require_real_time_speed does.
-  RealTimePlant(Bus& bus, const StopSwitch& stop, const PlantOptions& options, PlantSide plant);
-
-  /// Runs to the end and tells the peers that it is over, also where it throws: RunFault `lost_peer` where
-  /// nothing answers tick 0, or `config_mismatch`.
-  Ending run();
-
-  /// Tells the peers which session comes after a reset.
-  void send_reset(std::int64_t next) { port_.send_reset(next); }
-
-  const PlantReport& report() const { return port_.report; }
-  PlantReport& report() { return port_.report; }  ///< to count what else the process hears
+  RealTimePlant(Bus& bus, const StopSwitch& stop, const PlantOptions& options, RealTimeSide& plant);
 
  private:
-  Ending run_ticks();
+  Ending run_ticks() override;
   PlantPort::Answer live_through(std::int64_t tick);
   void take_command(std::int64_t tick);
   void judge_pace(std::int64_t tick);
-  bool before_end(std::int64_t tick) const { return options_.hold || tick <= options_.last_tick; }
 
-  PlantSide plant_;
-  PlantOptions options_;
-  PlantPort port_;
+  RealTimeSide& plant_;
   std::int64_t newest_ = -1;  ///< the newest command
   int safe_commands_ = 0;     ///< in a row
 };

@@ -23,14 +23,7 @@ void fill(timing_t& m, const PlantReport& report, const DeadlineCounts& deadline
   m.wake_up_max = report.wake_up.max().count();
   m.relative_error = Histogram::kRelativeError;
 
-  m.rejected_length = count(report.rejects.length);
-  m.rejected_fingerprint = count(report.rejects.fingerprint);
-  m.rejected_dimension = count(report.rejects.dimension);
-  m.rejected_not_finite = count(report.rejects.not_finite);
-  m.rejected_session = count(report.rejects.session);
-  m.rejected_config = count(report.rejects.config);
-  m.rejected_tick = count(report.rejects.tick);
-  m.rejected_stale = count(report.rejects.stale);
+  for (const RejectRow& row : kRejects) m.*row.timed = count(report.rejects.of(row.cause));
 }
 
 }  // namespace

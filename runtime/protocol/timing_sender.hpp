@@ -4,6 +4,7 @@
 #include <string>
 
 #include "runtime/bus/bus.hpp"
+#include "runtime/protocol/plant_report.hpp"
 #include "runtime/protocol/plant_side.hpp"
 
 namespace mixloop {

@@ -41,12 +41,6 @@ Table table_in(const std::string& file) {
   return table;
 }
 
-std::string bytes_of(const std::string& file) {
-  std::stringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  return bytes.str();
-}
-
 std::string big_endian(std::uint64_t value, int bytes) {
   std::string text;
   for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> 8 * i);

@@ -4,9 +4,8 @@
 
 #include <csignal>
 
-#include "tests/support/command.hpp"
 #include "tests/support/heard.hpp"
-#include "tests/support/paths.hpp"
+#include "tests/support/refused.hpp"
 #include "tests/support/terminal.hpp"
 
 namespace mixloop {
@@ -54,10 +53,7 @@ TEST(Monitor, MeasuresWhatTheRunItselfMeasures) {
 }
 
 TEST(Monitor, SaysThatNobodyIsThere) {
-  Command monitor({bin("mixloop"), "monitor", "--json", "--patience", "0.2"});
-  EXPECT_EQ(monitor.wait(), 3);
-  EXPECT_EQ(monitor.json()["error"]["code"], "lost_peer");
-  EXPECT_THAT(std::string(monitor.json()["error"]["message"]), HasSubstr("network namespace"));
+  expect_refused({"monitor", "--patience", "0.2"}, 3, "lost_peer", "network namespace");
 }
 
 TEST(Monitor, RefusesBadInput) {

@@ -2,22 +2,14 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <sstream>
 
-#include "tests/support/command.hpp"
-#include "tests/support/paths.hpp"
+#include "tests/support/refused.hpp"
 
 namespace mixloop {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-std::string text_of_file(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 /// Whether web/ was built here: a machine without npm has no pages.
 bool has_pages() { return MIXLOOP_HAS_PAGES; }
@@ -27,16 +19,6 @@ std::string simulated(const ScratchFolder& folder, const std::string& name) {
   Command command({bin("mixloop"), "simulate", experiment("paper"), "--json", "--out", out});
   EXPECT_EQ(command.wait(), 0) << command.err();
   return out;
-}
-
-int refused(const std::vector<std::string>& words, const std::string& code, const std::string& message) {
-  std::vector<std::string> all = {bin("mixloop"), "report", "--json"};
-  all.insert(all.end(), words.begin(), words.end());
-  Command command(all);
-  const int status = command.wait();
-  EXPECT_EQ(command.json()["error"]["code"], code) << command.out();
-  EXPECT_THAT(command.json()["error"]["message"].get<std::string>(), HasSubstr(message));
-  return status;
 }
 
 TEST(Report, IsOneFileOfAllResults) {
@@ -49,7 +31,7 @@ TEST(Report, IsOneFileOfAllResults) {
   EXPECT_EQ(json["results"].size(), 2u);
   EXPECT_EQ(json["results"][0]["label"], "paper (one)");
   EXPECT_EQ(json["results"][1]["ticks"], 1001);
-  const std::string page = text_of_file(folder.file("both.html"));
+  const std::string page = bytes_of(folder.file("both.html"));
   EXPECT_EQ(page.size(), json["bytes"].get<std::size_t>());
   EXPECT_THAT(page, AllOf(HasSubstr("paper (two)"), HasSubstr("default-src 'none'")));
   EXPECT_THAT(page, testing::Not(testing::ContainsRegex("(src|href)=\"?http")));
@@ -85,31 +67,31 @@ TEST(Report, TakesALog) {
     ASSERT_EQ(command.wait(), 0) << command.out() << command.err();
     EXPECT_EQ(command.json()["results"][0]["ticks"], 1001);
     const bool knows_scene = words.front() != folder.file("alone.lcmlog") || words.size() > 1;
-    EXPECT_EQ(text_of_file(folder.file("page.html")).find("\"q_1\":") != std::string::npos, knows_scene);
+    EXPECT_EQ(bytes_of(folder.file("page.html")).find("\"q_1\":") != std::string::npos, knows_scene);
   }
 }
 
 TEST(Report, RefusesWhatIsNoResult) {
   ScratchFolder folder;
   if (!has_pages()) GTEST_SKIP() << "built without npm";
-  EXPECT_EQ(refused({folder.path().string()}, "not_a_result", "no result.json"), 2);
-  EXPECT_EQ(refused({folder.file("nothing")}, "cannot_read", "no such file"), 2);
-  EXPECT_EQ(refused({folder.write("text", "hello, log")}, "not_a_log", "LCM event log"), 2);
-  EXPECT_EQ(refused({folder.file("x"), "--set", "rate=1"}, "command_line", "--experiment"), 2);
+  expect_refused({"report", folder.path().string()}, 2, "not_a_result", "no result.json");
+  expect_refused({"report", folder.file("nothing")}, 2, "cannot_read", "no such file");
+  expect_refused({"report", folder.write("text", "hello, log")}, 2, "not_a_log", "LCM event log");
+  expect_refused({"report", folder.file("x"), "--set", "rate=1"}, 2, "command_line", "--experiment");
   const std::string one = simulated(folder, "one");
   std::ofstream(one + "/inputs.json") << "{}";
-  EXPECT_EQ(refused({one}, "missing_key", "'scene'"), 2);
+  expect_refused({"report", one}, 2, "missing_key", "'scene'");
   std::ofstream(one + "/result.json") << "[1";
   std::filesystem::remove(one + "/inputs.json");
-  EXPECT_EQ(refused({one}, "not_a_result", "no JSON object"), 2);
+  expect_refused({"report", one}, 2, "not_a_result", "no JSON object");
 }
 
 TEST(Report, SaysWhereItCannotWrite) {
   if (!has_pages()) GTEST_SKIP() << "built without npm";
   ScratchFolder folder;
   const std::string one = simulated(folder, "one");
-  EXPECT_EQ(
-      refused({one, "--out", folder.file("no/such/folder.html")}, "cannot_write", "no/such/folder.html"), 3);
+  expect_refused({"report", one, "--out", folder.file("no/such/folder.html")}, 3, "cannot_write",
+                 "no/such/folder.html");
 }
 
 }  // namespace

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "tests/support/command.hpp"
 #include "tests/support/heard.hpp"
 #include "tests/support/paths.hpp"
@@ -21,9 +18,8 @@ TEST(Track, ExitsWithTheHighestStatusAndWritesJunit) {
   EXPECT_EQ(results[0]["verdict"], "held");
   EXPECT_EQ(results[1]["error"]["code"], "no_such_file");
   EXPECT_EQ(results[2]["verdict"], "held");  // it diverges, as expected
-  std::stringstream xml;
-  xml << std::ifstream(folder.file("track.xml")).rdbuf();
-  EXPECT_THAT(xml.str(), testing::HasSubstr("tests=\"3\" failures=\"0\" errors=\"1\""));
+  EXPECT_THAT(bytes_of(folder.file("track.xml")),
+              testing::HasSubstr("tests=\"3\" failures=\"0\" errors=\"1\""));
 }
 
 TEST(Track, SaysWhichBoundWasMissed) {

@@ -19,7 +19,7 @@ class Stages : public testing::TestWithParam<MethodFacts> {
     advance(integrator, x, length, &calls);
     return calls;
   }
-  static void advance(Integrator& integrator, Vector& x, double length, std::vector<Call>* calls) {
+  static void advance(Integrator<>& integrator, Vector& x, double length, std::vector<Call>* calls) {
     integrator.advance(
         x, length,
         [&](int step, int stage, double t, const Vector& at, Vector& dx) {

@@ -17,13 +17,13 @@ Experiment paper(const std::vector<Override>& overrides = {}) {
 
 Measures measured(const Experiment& experiment, const Arrivals* arrivals) {
   const Plan plan = make_plan(experiment);
-  Recorder recorder(experiment, plan);
+  RecordedPlant run(experiment, plan);
   const auto go_on = [](std::int64_t) { return true; };
   if (arrivals)
-    simulate_arrivals(experiment, plan, *arrivals, recorder, go_on);
+    simulate_arrivals(run, *arrivals, go_on);
   else
-    simulate(experiment, plan, recorder, go_on);
-  return recorder.measures();
+    simulate(run, go_on);
+  return run.recorder().measures();
 }
 
 Arrivals all_after(std::int64_t offset, std::int64_t ticks = 1000) {

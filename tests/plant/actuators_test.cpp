@@ -18,29 +18,38 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kIntegrated = 1e-11;
 const PlantSettings kFine{.integrator = Method::dop853};
 
-double torque(const Actuators& drives, double s) {
+/// Drives and what they remember.
+struct Drives {
+  Actuators model;
+  Actuators::State state;
+  void pass(double s) { model.pass(state, s); }
+  double next_kink(double s) const { return model.next_kink(state, s); }
+};
+
+double torque(const Drives& drives, double s) {
   const double still[] = {0.0};
   double tau[1];
-  drives.torque(s, still, still, 1, tau);
+  drives.model.torque(drives.state, s, still, still, 1, tau);
   return tau[0];
 }
 
-Actuators stepped(const ActuatorSettings& settings, double from, double to) {
-  Actuators drives(settings, 1);
-  drives.take(std::array{from});
-  drives.take(std::array{to});
+Drives stepped(const ActuatorSettings& settings, double from, double to) {
+  const Actuators model(settings, 1);
+  Drives drives{model, model.state()};
+  model.take(drives.state, std::array{from});
+  model.take(drives.state, std::array{to});
   return drives;
 }
 
 TEST(Actuators, FollowAStepByTheExponentialOfTheirLag) {
   constexpr double kT = 0.02;
-  const Actuators drives = stepped({.time_constant = {kT}}, 1, 3);
+  const Drives drives = stepped({.time_constant = {kT}}, 1, 3);
   for (double s = 0; s < 0.2; s += 0.0007)
     EXPECT_NEAR(torque(drives, s), 3 - 2 * std::exp(-s / kT), 4 * kEps * 3) << s;
 }
 
 TEST(Actuators, RampAtTheirRateAndStop) {
-  const Actuators up = stepped({.rate_limit = {10}}, 1, 3), down = stepped({.rate_limit = {10}}, 1, -3);
+  const Drives up = stepped({.rate_limit = {10}}, 1, 3), down = stepped({.rate_limit = {10}}, 1, -3);
   for (double s = 0; s < 0.6; s += 0.0007) {
     EXPECT_NEAR(torque(up, s), std::min(1 + 10 * s, 3.0), 2 * kEps * 3) << s;
     EXPECT_NEAR(torque(down, s), std::max(1 - 10 * s, -3.0), 2 * kEps * 3) << s;
@@ -53,14 +62,14 @@ TEST(Actuators, RampAtTheirRateAndStop) {
 // (1 - exp(-s/T)).
 TEST(Actuators, LagBehindTheirRamp) {
   constexpr double kT = 0.02, kR = 40, kEnd = 2 / kR;
-  const Actuators drives = stepped({.rate_limit = {kR}, .time_constant = {kT}}, 1, 3);
+  const Drives drives = stepped({.rate_limit = {kR}, .time_constant = {kT}}, 1, 3);
   const auto g = [](double s) { return s > 0 ? s - kT * (1 - std::exp(-s / kT)) : 0; };
   for (double s = 0; s < 0.3; s += 0.0007)
     EXPECT_NEAR(torque(drives, s), 1 + kR * (g(s) - g(s - kEnd)), 16 * kEps * kR * std::max(s, kT)) << s;
 }
 
 TEST(Actuators, AreWhereTheyWouldBeHoweverTimeIsCut) {
-  Actuators whole = stepped({.rate_limit = {40}, .time_constant = {0.02}}, 0, 3), cut = whole;
+  Drives whole = stepped({.rate_limit = {40}, .time_constant = {0.02}}, 0, 3), cut = whole;
   whole.pass(0.07);
   for (const double s : {0.011, 0.02, 0.0005, 0.0385}) cut.pass(s);
   EXPECT_NEAR(torque(whole, 0.01), torque(cut, 0.01), 32 * kEps * 3);

@@ -14,12 +14,11 @@ constexpr double kHealthyEnd = 11.4529188e-3;  // m: without a fault the error a
 constexpr double kBound = 20e-3;               // m: held; without a fault the error is 13.2 mm
 constexpr double kLimit = 100e-3;              // m: past it, diverged
 
-enum State { held, missed, diverged };
-constexpr const char* kNames[] = {"held", "missed", "diverged"};
+using enum Verdict;
 
 struct Row {
   const char *target, *lasts, *kind;
-  std::array<State, 3> state;  ///< of motor or sensor 1, 2, 3
+  std::array<Verdict, 3> state;  ///< of motor or sensor 1, 2, 3
   const char* reason;
 
   friend std::ostream& operator<<(std::ostream& out, const Row& row) {
@@ -43,15 +42,15 @@ TEST_P(FaultMatrix, EndsInItsDeclaredState) {
   for (int which = 1; which <= 3; ++which) {
     const Experiment experiment = faulty(row, which);
     const Plan plan = make_plan(experiment);
-    Recorder recorder(experiment, plan);
-    simulate(experiment, plan, recorder, [](std::int64_t) { return true; });
-    const Measures m = recorder.measures();
-    const State expected = row.state[static_cast<std::size_t>(which - 1)];
+    RecordedPlant run(experiment, plan);
+    simulate(run, [](std::int64_t) { return true; });
+    const Measures m = run.recorder().measures();
+    const Verdict expected = row.state[static_cast<std::size_t>(which - 1)];
     const std::string seen =
         fmt::format("{} {}: max {:.3f} mm at {:.3f} s, final {:.3f} mm, diverged at {:.3f} s", row.target,
                     which, m.max_position_error * 1e3, m.time_of_max_position_error,
                     m.final_position_error * 1e3, m.diverged_at.value_or(-1));
-    EXPECT_EQ(judge(experiment, m).word, kNames[expected]) << seen;
+    EXPECT_EQ(judge(experiment, m).verdict, expected) << seen;
     if (expected == diverged) {
       EXPECT_GE(*m.diverged_at, 0.3) << seen << ": not before the fault";
       continue;
@@ -203,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
 // to 0.01 N m s times 90 rad/s.
 struct Change {
   const char *lasts, *change;
-  State state;
+  Verdict state;
   double final_error;  ///< m: at least so much is left at the end
   const char* reason;
 
@@ -224,10 +223,10 @@ TEST_P(ChangeMatrix, EndsInItsDeclaredState) {
        {"expect", fmt::format("{{max_position_error: {}}}", kBound)},
        {"limits.position_error", fmt::format("{}", kLimit)}});
   const Plan plan = make_plan(experiment);
-  Recorder recorder(experiment, plan);
-  simulate(experiment, plan, recorder, [](std::int64_t) { return true; });
-  const Measures m = recorder.measures();
-  EXPECT_EQ(judge(experiment, m).word, kNames[row.state]) << 1e3 * m.max_position_error << " mm";
+  RecordedPlant run(experiment, plan);
+  simulate(run, [](std::int64_t) { return true; });
+  const Measures m = run.recorder().measures();
+  EXPECT_EQ(judge(experiment, m).verdict, row.state) << 1e3 * m.max_position_error << " mm";
   EXPECT_EQ(m.ticks, 1000);
   if (heals) {
     EXPECT_NEAR(m.final_position_error, kHealthyEnd, 0.2e-3);

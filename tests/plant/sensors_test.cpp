@@ -21,12 +21,14 @@ struct Reading {
 template <class Course>
 std::vector<Reading> readings(const SensorSettings& settings, int ticks, const Course& course,
                               std::uint64_t seed = 1) {
-  Sensors sensors(settings, seed, 1, kRate);
+  const Sensors sensors(settings, seed, 1, kRate);
+  Sensors::State memory = sensors.state();
   std::vector<Reading> all;
   for (int k = 0; k < ticks; ++k) {
     const auto [psi, psid] = course(k);
     double psi_out[1], psid_out[1];
-    const bool stale = sensors.measure(k, std::array{psi}, std::array{psid}, nullptr, psi_out, psid_out);
+    const bool stale =
+        sensors.measure(memory, k, std::array{psi}, std::array{psid}, nullptr, psi_out, psid_out);
     all.push_back({psi_out[0], psid_out[0], stale});
   }
   return all;
@@ -111,19 +113,20 @@ TEST(Sensors, LowPassTheDifferences) {
 
 TEST(Sensors, SayTheSameWheneverTheyAreAskedAgain) {
   const SensorSettings settings{.noise = {0.1}, .delay = {2}, .drop = {0.3}, .differentiated = true};
-  Sensors once(settings, 5, 1, kRate), often(settings, 5, 1, kRate), other(settings, 6, 1, kRate);
+  const Sensors sensors(settings, 5, 1, kRate), others(settings, 6, 1, kRate);
+  Sensors::State once = sensors.state(), often = once, other = others.state();
   bool differs = false;
   for (int k = 0; k < 50; ++k) {
     double a[2], b[2], c[2];
     const State now = swing(k);
-    const auto ask = [&](Sensors& sensors, double* out) {
-      return sensors.measure(k, {&now[0], 1}, {&now[1], 1}, nullptr, {out, 1}, {out + 1, 1});
+    const auto ask = [&](const Sensors& of, Sensors::State& memory, double* out) {
+      return of.measure(memory, k, {&now[0], 1}, {&now[1], 1}, nullptr, {out, 1}, {out + 1, 1});
     };
-    const bool stale = ask(once, a);
-    for (int i = 0; i <= k % 3; ++i) EXPECT_EQ(ask(often, b), stale);
+    const bool stale = ask(sensors, once, a);
+    for (int i = 0; i <= k % 3; ++i) EXPECT_EQ(ask(sensors, often, b), stale);
     EXPECT_EQ(a[0], b[0]);
     EXPECT_EQ(a[1], b[1]);
-    ask(other, c);
+    ask(others, other, c);
     differs = differs || c[0] != a[0];
   }
   EXPECT_TRUE(differs) << "another seed, other noise";

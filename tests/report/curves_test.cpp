@@ -33,7 +33,7 @@ Tick tick(std::int64_t k, const Eigen::Vector3d& error) {
 }
 
 TEST(Curves, SplitsTheErrorAlongThePathAndAcrossIt) {
-  Curves curves(1, 0, {0, 1, 2}, 1, 8);
+  Curves curves({0, 1, 2}, 1, 8);
   curves.add(tick(0, {0, 0, 0}));
   curves.add(tick(1, {12, 3, 4}));
   EXPECT_THAT(points(curves, "error"), ElementsAre(0, 13));
@@ -44,7 +44,7 @@ TEST(Curves, SplitsTheErrorAlongThePathAndAcrossIt) {
 }
 
 TEST(Curves, KeepsThePathsDirectionWhileItRests) {
-  Curves curves(1, 0, {0, 1, 2}, 1, 8);
+  Curves curves({0, 1, 2}, 1, 8);
   curves.add(tick(0, {0, 0, 0}));
   Tick rest = tick(0, {-1, 2, 0});
   rest.desired.velocity.setZero();
@@ -54,13 +54,13 @@ TEST(Curves, KeepsThePathsDirectionWhileItRests) {
 }
 
 TEST(Curves, CountsOnlyTheAxesThatThePathPrescribes) {
-  Curves curves(1, 0, {0, 1}, 1, 8);
+  Curves curves({0, 1}, 1, 8);
   curves.add(tick(0, {3, 4, 100}));
   EXPECT_EQ(curves.tracking_error().max, 5);
 }
 
 TEST(Curves, MeasuresTheError) {
-  Curves curves(1, 0, {0, 1, 2}, 1, 8);
+  Curves curves({0, 1, 2}, 1, 8);
   for (int k = 0; k < 4; ++k) curves.add(tick(k, {k == 2 ? 7.0 : 1.0, 0, 0}));
   const TrackingError error = curves.tracking_error();
   EXPECT_EQ(error.max, 7);
@@ -70,7 +70,7 @@ TEST(Curves, MeasuresTheError) {
 }
 
 TEST(Curves, BalancesEnergyAndPower) {
-  Curves curves(1, 0, {0, 1, 2}, 10, 8);  // 10 Hz
+  Curves curves({0, 1, 2}, 10, 8);  // 10 Hz
   for (const auto& [kinetic, potential, work] : {std::array{0.0, 5.0, 0.0}, {1, 6, 3}, {1, 6, 4}}) {
     Tick t = tick(0, {0, 0, 0});
     t.kinetic_energy = kinetic, t.potential_energy = potential, t.work = work;
@@ -85,7 +85,7 @@ TEST(Curves, BalancesEnergyAndPower) {
 }
 
 TEST(Curves, LeavesWhatIsUnknownEmpty) {
-  Curves curves(1, 0, {0, 1, 2}, 1, 8);
+  Curves curves({0, 1, 2}, 1, 8);
   Tick unknown(1);
   curves.add(unknown);
   for (const auto& curve : curves.all()) EXPECT_TRUE(curve.envelope.empty()) << curve.name;

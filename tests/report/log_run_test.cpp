@@ -16,11 +16,16 @@ namespace {
 using testing::DoubleNear;
 using testing::ElementsAre;
 
-/// Writes a log message by message, as a logger would.
+struct Read {
+  LogSession session;
+  LogFacts facts;
+  std::vector<Tick> ticks;
+};
+
+/// Writes a log message by message, as a logger would, and reads it back.
 class Log {
  public:
-  explicit Log(const std::string& file) : log_(lcm_eventlog_create(file.c_str(), "w")) {}
-  ~Log() { lcm_eventlog_destroy(log_); }
+  Log() : log_(lcm_eventlog_create(file_.c_str(), "w"), lcm_eventlog_destroy) {}
 
   template <class Message>
   void add(const std::string& channel, Outbox<Message>& outbox, std::int64_t at_us) {
@@ -31,7 +36,7 @@ class Log {
                                .datalen = static_cast<int>(bytes.size()),
                                .channel = const_cast<char*>(channel.c_str()),
                                .data = const_cast<std::uint8_t*>(bytes.data())};
-    lcm_eventlog_write_event(log_, &event);
+    lcm_eventlog_write_event(log_.get(), &event);
   }
 
   void state(std::int64_t k, double psi, std::int64_t at_us, std::int64_t session = 7) {
@@ -53,39 +58,36 @@ class Log {
     add("MIXLOOP_REFERENCE", outbox, at_us);
   }
 
+  /// Nothing can be written any more.
+  std::vector<LogSession> sessions() {
+    log_.reset();
+    return sessions_in(file_, "MIXLOOP_");
+  }
+  Read read() {
+    Read all;
+    all.session = sessions().front();
+    all.facts = read_log(file_, "MIXLOOP_", all.session, all.session.rate_hz, 0,
+                         [&](const Tick& tick) { all.ticks.push_back(tick); });
+    return all;
+  }
+
  private:
-  lcm_eventlog_t* log_;
+  ScratchFolder folder_;
+  std::string file_ = folder_.file("log");
+  std::unique_ptr<lcm_eventlog_t, decltype(&lcm_eventlog_destroy)> log_;
   std::int64_t number_ = 0;
 };
 
-struct Read {
-  LogSession session;
-  LogFacts facts;
-  std::vector<Tick> ticks;
-};
-
-Read read(const std::string& file) {
-  Read all;
-  all.session = sessions_in(file, "MIXLOOP_").front();
-  all.facts = read_log(file, "MIXLOOP_", all.session, all.session.rate_hz, 0,
-                       [&](const Tick& tick) { all.ticks.push_back(tick); });
-  return all;
-}
-
 TEST(LogRun, PutsTheMessagesOfATickTogether) {
-  ScratchFolder folder;
-  const auto file = folder.file("log");
-  {
-    Log log(file);
-    log.reference(0, 0.5, 900);  // before the state that it is for
-    log.state(0, 1, 1000);
-    log.state(0, 1, 6000);  // sent again: the age counts from the first
-    log.command(0, 10, 6250);
-    log.reference(1, 0.6, 6300);
-    log.state(1, 1.5, 7000);
-    log.command(1, 20, 7120);
-  }
-  const Read all = read(file);
+  Log log;
+  log.reference(0, 0.5, 900);  // before the state that it is for
+  log.state(0, 1, 1000);
+  log.state(0, 1, 6000);  // sent again: the age counts from the first
+  log.command(0, 10, 6250);
+  log.reference(1, 0.6, 6300);
+  log.state(1, 1.5, 7000);
+  log.command(1, 20, 7120);
+  const Read all = log.read();
   EXPECT_EQ(all.session.rate_hz, 500);
   ASSERT_EQ(all.ticks.size(), 2u);
   EXPECT_EQ(all.ticks[1].t, 0.002);
@@ -99,34 +101,26 @@ TEST(LogRun, PutsTheMessagesOfATickTogether) {
 
 // As on the bus: a reference comes before its state, all along.
 TEST(LogRun, TakesMessagesThatComeEarlyInALongRun) {
-  ScratchFolder folder;
-  const auto file = folder.file("log");
-  {
-    Log log(file);
-    log.reference(0, 0, 0);
-    for (int k = 0; k < 1000; ++k) {
-      log.state(k, k, 1000 * k);
-      log.reference(k + 1, k + 1, 1000 * k + 50);
-      log.command(k, 1, 1000 * k + 100);
-    }
+  Log log;
+  log.reference(0, 0, 0);
+  for (int k = 0; k < 1000; ++k) {
+    log.state(k, k, 1000 * k);
+    log.reference(k + 1, k + 1, 1000 * k + 50);
+    log.command(k, 1, 1000 * k + 100);
   }
-  const Read all = read(file);
+  const Read all = log.read();
   ASSERT_EQ(all.ticks.size(), 1000u);
   EXPECT_EQ(all.facts.references_missing + all.facts.commands_missing + all.facts.dropped, 0);
   for (const Tick& tick : all.ticks) EXPECT_EQ(tick.psi_desired[0], tick.psi[0]);
 }
 
 TEST(LogRun, LeavesGapsWhereTheLogHasThem) {
-  ScratchFolder folder;
-  const auto file = folder.file("log");
-  {
-    Log log(file);
-    for (const int k : {0, 1, 4, 5}) {
-      log.state(k, k, 1000 * k);
-      if (k != 4) log.command(k, 1, 1000 * k + 100);
-    }
+  Log log;
+  for (const int k : {0, 1, 4, 5}) {
+    log.state(k, k, 1000 * k);
+    if (k != 4) log.command(k, 1, 1000 * k + 100);
   }
-  const Read all = read(file);
+  const Read all = log.read();
   ASSERT_EQ(all.ticks.size(), 6u);
   EXPECT_TRUE(std::isnan(all.ticks[2].psi[0]));
   EXPECT_EQ(all.ticks[5].psi[0], 5);
@@ -137,20 +131,16 @@ TEST(LogRun, LeavesGapsWhereTheLogHasThem) {
 }
 
 TEST(LogRun, PrefersTruth) {
-  ScratchFolder folder;
-  const auto file = folder.file("log");
-  {
-    Log log(file);
-    log.state(0, 1, 1000);
-    log.command(0, 10, 1100);
-    Outbox<truth_t> truth(1);
-    set_header(truth.message, {1, 0, 0, 7, 1});
-    truth.message.tau_applied[0] = 8;
-    truth.message.position[1] = 3;
-    truth.message.work = 42;
-    log.add("MIXLOOP_TRUTH", truth, 1200);
-  }
-  const Read all = read(file);
+  Log log;
+  log.state(0, 1, 1000);
+  log.command(0, 10, 1100);
+  Outbox<truth_t> truth(1);
+  set_header(truth.message, {1, 0, 0, 7, 1});
+  truth.message.tau_applied[0] = 8;
+  truth.message.position[1] = 3;
+  truth.message.work = 42;
+  log.add("MIXLOOP_TRUTH", truth, 1200);
+  const Read all = log.read();
   EXPECT_TRUE(all.facts.has_truth);
   EXPECT_EQ(all.ticks[0].tau[0], 10);
   EXPECT_EQ(all.ticks[0].tau_applied[0], 8);
@@ -159,44 +149,32 @@ TEST(LogRun, PrefersTruth) {
 }
 
 TEST(LogRun, NamesTheSessionsTheLongestFirst) {
-  ScratchFolder folder;
-  const auto file = folder.file("log");
-  {
-    Log log(file);
-    log.state(0, 0, 1, 3);
-    for (int k = 5; k < 9; ++k) log.state(k, k, k, 4);
-  }
-  const auto sessions = sessions_in(file, "MIXLOOP_");
+  Log log;
+  log.state(0, 0, 1, 3);
+  for (int k = 5; k < 9; ++k) log.state(k, k, k, 4);
+  const auto sessions = log.sessions();
   ASSERT_EQ(sessions.size(), 2u);
   EXPECT_EQ(sessions[0].session, 4);
   EXPECT_EQ(sessions[0].first_tick, 5);
   EXPECT_EQ(sessions[0].last_tick, 8);
-  EXPECT_EQ(read(file).ticks.size(), 4u);
+  EXPECT_EQ(log.read().ticks.size(), 4u);
 }
 
 // A tick from far away neither makes a gap of its size nor ends what follows.
 TEST(LogRun, DropsATickThatCantBe) {
-  ScratchFolder folder;
-  const auto file = folder.file("log");
-  {
-    Log log(file);
-    log.state(0, 0, 0);
-    log.state(std::int64_t{1} << 60, 0, 1);
-    log.state(1, 1, 2);
-  }
-  const Read all = read(file);
+  Log log;
+  log.state(0, 0, 0);
+  log.state(std::int64_t{1} << 60, 0, 1);
+  log.state(1, 1, 2);
+  const Read all = log.read();
   EXPECT_EQ(all.ticks.size(), 2u);
   EXPECT_EQ(all.facts.dropped, 1);
 }
 
 TEST(LogRun, RefusesALogWithoutStates) {
-  ScratchFolder folder;
-  const auto file = folder.file("log");
-  {
-    Log log(file);
-    log.command(0, 1, 1);
-  }
-  const auto error = input_error([&] { sessions_in(file, "MIXLOOP_"); });
+  Log log;
+  log.command(0, 1, 1);
+  const auto error = input_error([&] { log.sessions(); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code, "no_states");
   EXPECT_THAT(error->message, testing::HasSubstr("MIXLOOP_STATE"));

@@ -16,7 +16,7 @@ constexpr const char* kPage =
 
 ReportedRun noisy_run(std::int64_t ticks, std::size_t capacity) {
   ReportedRun run{{.label = "</script><img src=x onerror=alert(1)>", .rate_hz = 1000, .n = 1},
-                  Curves(1, 0, {0, 1, 2}, 1000, capacity),
+                  Curves({0, 1, 2}, 1000, capacity),
                   {}};
   std::mt19937 random(21);
   std::normal_distribution<double> noise;

@@ -123,8 +123,9 @@ std::vector<Override> substeps(int count) { return {{"plant.substeps", fmt::form
 std::vector<Balance> balances_of(const std::string& file, int count) {
   const Experiment experiment = load_experiment(std::string(MIXLOOP_EXPERIMENTS "/") + file, substeps(count));
   const Plan plan = make_plan(experiment);
-  Recorder recorder(experiment, plan);
-  simulate(experiment, plan, recorder, [](std::int64_t) { return true; });
+  RecordedPlant run(experiment, plan);
+  simulate(run, [](std::int64_t) { return true; });
+  const Recorder& recorder = run.recorder();
   TruthReader reader(experiment, recorder);
   const double weight = weight_of(*experiment.scene, experiment.plant_parameters);
   std::vector<Balance> all;

@@ -12,15 +12,12 @@
 #include <stdexcept>
 
 namespace mixloop {
-namespace {
 
-std::string read_file(const std::string& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
+std::string bytes_of(const std::string& file) {
+  std::stringstream bytes;
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  return bytes.str();
 }
-
-}  // namespace
 
 ScratchFolder::ScratchFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "mixloop-test-XXXXXX").string();
@@ -72,7 +69,7 @@ void Command::signal(int number) const { kill(pid_, number); }
 
 std::vector<int> Command::children() const {
   std::istringstream list(
-      read_file("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) + "/children"));
+      bytes_of("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) + "/children"));
   std::vector<int> pids;
   for (int pid = 0; list >> pid;) pids.push_back(pid);
   return pids;
@@ -87,7 +84,7 @@ int Command::wait(std::chrono::milliseconds limit) {
   return status_;
 }
 
-std::string Command::out() const { return read_file(folder_.file("out")); }
-std::string Command::err() const { return read_file(folder_.file("err")); }
+std::string Command::out() const { return bytes_of(folder_.file("out")); }
+std::string Command::err() const { return bytes_of(folder_.file("err")); }
 
 }  // namespace mixloop

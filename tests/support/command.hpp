@@ -10,6 +10,9 @@
 
 namespace mixloop {
 
+/// All bytes of a file; none where there is no such file.
+std::string bytes_of(const std::string& file);
+
 /// A folder of a test's own, gone with it.
 class ScratchFolder {
  public:

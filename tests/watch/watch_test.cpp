@@ -34,10 +34,8 @@ class Script {
 
   template <class Message>
   Message message(std::int64_t tick, std::int64_t session = kSession) const {
-    Message m{};
-    if constexpr (!std::is_same_v<Message, timing_t> && !std::is_same_v<Message, fault_t>)
-      m = blank<Message>(n_);
-    m.n = n_, m.utime = 1000 * tick, m.seq = tick, m.session = session;
+    Message m = blank<Message>(n_);
+    set_header(m, {.n = n_, .utime = 1000 * tick, .seq = tick, .session = session});
     return m;
   }
   template <class Message>
@@ -162,7 +160,7 @@ TEST(Watch, HoldsItselfToOneRun) {
   EXPECT_EQ(script.watch.view(script.at).session, kSession) << "the first run is not quiet yet";
   EXPECT_EQ(script.watch.view(script.at).other_sessions, 1);
   script.at += milliseconds(1001);
-  EXPECT_EQ(script.watch.view(script.at).condition, "silent");
+  EXPECT_EQ(script.watch.view(script.at).condition, Condition::silent);
   script.state(0, {0, 0, 0}, kSession + 1);
   const WatchView view = script.watch.view(script.at);
   EXPECT_EQ(view.session, kSession + 1);
@@ -218,27 +216,30 @@ TEST(Watch, CountsWhatItCannotTake) {
 TEST(Watch, SaysHowTheRunStands) {
   Script script;
   const auto condition = [&] { return script.watch.view(script.at).condition; };
-  EXPECT_EQ(condition(), "silent");
+  EXPECT_EQ(condition(), Condition::silent);
   script.state(0, {0, 0, 0});
   script.reference(0, {0, 0, 0}, reference_t::PHASE_MOVE_TO_START);
-  EXPECT_EQ(condition(), "moving_to_start");
+  EXPECT_EQ(condition(), Condition::moving_to_start);
   script.state(1, {0, 0, 0});
   script.reference(1, {0, 0, 0});
-  EXPECT_EQ(condition(), "on_path");
+  EXPECT_EQ(condition(), Condition::on_path);
   script.state(2, {0, 0, 0});
   script.reference(2, {0, 0, 0}, reference_t::PHASE_HOLD);
-  EXPECT_EQ(condition(), "holding");
+  EXPECT_EQ(condition(), Condition::holding);
   auto state = script.message<state_t>(3);
   state.flags = state_t::FLAG_SAFE_STATE;
   script.send(Channel::state, state);
-  EXPECT_EQ(condition(), "safe_state");
+  EXPECT_EQ(condition(), Condition::safe_state);
   script.watch.take(Channel::stop, {}, script.at);
-  EXPECT_EQ(condition(), "stopped") << "whatever a STOP's fields say";
+  EXPECT_EQ(condition(), Condition::stopped) << "whatever a STOP's fields say";
   auto end = script.message<sim_control_t>(3);
   end.action = sim_control_t::ACTION_END, end.reason = sim_control_t::REASON_STOPPED;
   script.send(Channel::sim_control, end);
-  EXPECT_EQ(condition(), "ended");
-  EXPECT_EQ(script.watch.view(script.at).ending, "stopped");
+  EXPECT_EQ(condition(), Condition::ended);
+  EXPECT_EQ(script.watch.view(script.at).ending, Ending::stopped);
+  const auto json = watch_json(script.watch.view(script.at));
+  EXPECT_EQ(json["condition"], "ended");
+  EXPECT_EQ(json["ending"], "stopped");
 }
 
 TEST(Watch, TellsTheTimesBetweenMessages) {
@@ -280,8 +281,7 @@ WatchView busy(int n) {
 TEST(WatchText, ShowsAllOfThreeMotorsIn80By24) {
   // The last of the 24 lines is for the keys.
   const std::string text = text_of(busy(3), 80, 23);
-  for (const Channel channel : kChannels)
-    EXPECT_THAT(text, HasSubstr(std::string("MIXLOOP_") + name_of(channel)));
+  for (const char* channel : kChannelNames) EXPECT_THAT(text, HasSubstr(std::string("MIXLOOP_") + channel));
   EXPECT_THAT(text,
               AllOf(HasSubstr("real time"), HasSubstr("worst 100.0000 mm at 123456.789 s, by the truth"),
                     HasSubstr("\n3       1.500000"), HasSubstr("here: state to command")));

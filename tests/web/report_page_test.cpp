@@ -1,50 +1,39 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include "tests/support/command.hpp"
-#include "tests/support/paths.hpp"
+#include "tests/web/look.hpp"
 
 namespace mixloop {
 namespace {
 
-// web/test/report.mjs says what is looked at.
-TEST(ReportPage, ShowsInABrowserWhatTheTrajectoryHolds) {
+/// A folder with a kept run and its page.
+class ReportPage : public testing::Test {
+ protected:
+  void keep(const std::string& command, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> words = {bin("mixloop"), command, experiment("paper"), "--json", "--out", out};
+    words.insert(words.end(), options.begin(), options.end());
+    Command run(words);
+    ASSERT_EQ(run.wait(), 0) << run.err();
+    Command report({bin("mixloop"), "report", out});
+    ASSERT_EQ(report.wait(), 0) << report.err();
+  }
+
   ScratchFolder folder;
-  const std::string out = folder.file("paper");
-  Command simulate({bin("mixloop"), "simulate", experiment("paper"), "--json", "--out", out});
-  ASSERT_EQ(simulate.wait(), 0) << simulate.err();
-  Command report({bin("mixloop"), "report", out});
-  ASSERT_EQ(report.wait(), 0) << report.err();
-  Command look({MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/report.mjs", MIXLOOP_CHROMIUM,
-                out + "/report.html", out + "/trajectory.csv"});
-  EXPECT_EQ(look.wait(std::chrono::seconds(280)), 0) << look.out() << look.err();
+  std::string out = folder.file("paper"), page = out + "/report.html";
+};
+
+TEST_F(ReportPage, ShowsInABrowserWhatTheTrajectoryHolds) {
+  ASSERT_NO_FATAL_FAILURE(keep("simulate"));
+  look("report.mjs", {page, out + "/trajectory.csv"});
 }
 
 // More ticks than are drawn one by one.
-TEST(ReportPage, PansALongRunOfFewPoints) {
-  ScratchFolder folder;
-  const std::string out = folder.file("long");
-  Command simulate({bin("mixloop"), "simulate", experiment("paper"), "--json", "--out", out, "--set",
-                    "path.duration=60 s", "--set", "expect={}"});
-  ASSERT_EQ(simulate.wait(), 0) << simulate.err();
-  Command report({bin("mixloop"), "report", out});
-  ASSERT_EQ(report.wait(), 0) << report.err();
-  Command pan(
-      {MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/pan.mjs", MIXLOOP_CHROMIUM, out + "/report.html"});
-  EXPECT_EQ(pan.wait(std::chrono::seconds(280)), 0) << pan.out() << pan.err();
-  RecordProperty("rate", pan.out());
+TEST_F(ReportPage, PansALongRunOfFewPoints) {
+  ASSERT_NO_FATAL_FAILURE(keep("simulate", {"--set", "path.duration=60 s", "--set", "expect={}"}));
+  RecordProperty("rate", look("pan.mjs", {page}));
 }
 
-TEST(ReportPage, ShowsWhatThePlantSaidOfItsTiming) {
-  ScratchFolder folder;
-  const std::string out = folder.file("run");
-  Command run({bin("mixloop"), "run", experiment("paper"), "--speed", "1", "--json", "--out", out});
-  ASSERT_EQ(run.wait(), 0) << run.err();
-  Command report({bin("mixloop"), "report", out});
-  ASSERT_EQ(report.wait(), 0) << report.err();
-  Command look(
-      {MIXLOOP_NODE, std::string(MIXLOOP_WEB_TESTS) + "/timing.mjs", MIXLOOP_CHROMIUM, out + "/report.html"});
-  EXPECT_EQ(look.wait(std::chrono::seconds(280)), 0) << look.out() << look.err();
+TEST_F(ReportPage, ShowsWhatThePlantSaidOfItsTiming) {
+  ASSERT_NO_FATAL_FAILURE(keep("run", {"--speed", "1"}));
+  look("timing.mjs", {page});
 }
 
 }  // namespace

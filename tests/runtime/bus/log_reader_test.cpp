@@ -4,9 +4,7 @@
 #include <gmock/gmock.h>
 #include <lcm/eventlog.h>
 
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "tests/support/bad_input.hpp"
 #include "tests/support/command.hpp"
@@ -49,12 +47,6 @@ std::vector<Logged> all_of(LogReader& log) {
                       {reinterpret_cast<const char*>(event->data.data()), event->data.size()}});
   EXPECT_EQ(log.next(), nullptr) << "an end stays an end";
   return events;
-}
-
-std::string bytes_of(const std::string& file) {
-  std::stringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  return bytes.str();
 }
 
 /// Lengths that make blocks of the reader end at every place in an event, the magic inside of data too.

@@ -15,26 +15,29 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::StartsWith;
 
+/// A plant that keeps what it is told.
+struct Scripted final : LockstepSide {
+  bool measure(std::int64_t tick, std::span<double> psi, std::span<double>) override {
+    psi[0] = static_cast<double>(tick);
+    return tick == stale_at;
+  }
+  bool advance(std::int64_t tick, std::span<const double> tau) override {
+    applied.push_back(tau[0]);
+    return tick != breaks_at;
+  }
+  void truth(std::int64_t tick, truth_t& t) override { t.work = static_cast<double>(tick); }
+
+  std::vector<double> applied;
+  std::int64_t breaks_at = -1, stale_at = -1;
+};
+
 class Plant : public testing::Test {
  protected:
   static PlantOptions options(std::int64_t last_tick) {
     return {.n = kScriptN, .last_tick = last_tick, .session = kScriptSession, .config = kScriptConfig};
   }
-  void start(const PlantOptions& o) { plant_.emplace(o, side()); }
+  void start(const PlantOptions& o) { plant_.emplace(o, side_); }
 
-  PlantSide side() {
-    PlantSide side;
-    side.measure = [this](std::int64_t tick, std::span<double> psi, std::span<double>) {
-      psi[0] = static_cast<double>(tick);
-      return tick == stale_at_;
-    };
-    side.advance = [this](std::int64_t tick, std::span<const double> tau) {
-      applied_.push_back(tau[0]);
-      return tick != breaks_at_;
-    };
-    side.truth = [](std::int64_t tick, truth_t& t) { t.work = static_cast<double>(tick); };
-    return side;
-  }
   command_t command(std::int64_t tick, double tau = 0) {
     auto c = ScriptedPeer::message<command_t>(tick);
     c.tau_commanded[0] = tau;
@@ -66,8 +69,7 @@ class Plant : public testing::Test {
     }
   }
 
-  std::vector<double> applied_;
-  std::int64_t breaks_at_ = -1, stale_at_ = -1;
+  Scripted side_;
   ScriptedPeer script_{"STATE", "TRUTH", "SIM_CONTROL"};
   std::optional<RunningPeer<LockstepPlant>> plant_;
 };
@@ -80,7 +82,7 @@ TEST_F(Plant, RunsFromTick0ToTheLastAndEndsAll) {
   }
   EXPECT_EQ(plant_->ending(), Ending::finished);
   expect_end(sim_control_t::REASON_FINISHED, 2);
-  EXPECT_EQ(applied_, (std::vector<double>{10, 11, 12}));
+  EXPECT_EQ(side_.applied, (std::vector<double>{10, 11, 12}));
   EXPECT_EQ(plant_->peer.report().ticks_done, 3);
   EXPECT_EQ(plant_->peer.report().round_trip.count(), 2U);
   EXPECT_TRUE(script_.silent("TRUTH")) << "nobody asked for it";
@@ -120,16 +122,9 @@ TEST_F(Plant, TakesOnlyTheCommandThatAnswersItsTick) {
   spoil(1, [](command_t& c) { c.config ^= 1; });  // too late to refuse this controller: it had agreed
   script_.send("COMMAND", command(1, 2));
   EXPECT_EQ(plant_->ending(), Ending::finished);
-  EXPECT_EQ(applied_, (std::vector<double>{1, 2}));
-  const Rejects& r = plant_->peer.report().rejects;
-  EXPECT_EQ(r.session, 1U);
-  EXPECT_EQ(r.tick, 1U);
-  EXPECT_EQ(r.stale, 2U);
-  EXPECT_EQ(r.not_finite, 1U);
-  EXPECT_EQ(r.dimension, 1U);
-  EXPECT_EQ(r.fingerprint, 1U);
-  EXPECT_EQ(r.length, 1U);
-  EXPECT_EQ(r.config, 1U);
+  EXPECT_EQ(side_.applied, (std::vector<double>{1, 2}));
+  EXPECT_EQ(to_string(plant_->peer.report().rejects),
+            "1 length, 1 fingerprint, 1 dimension, 1 not_finite, 1 session, 1 config, 1 tick, 2 stale");
 }
 
 TEST_F(Plant, RefusesAControllerThatWasStartedWithSomethingElseByName) {
@@ -161,7 +156,7 @@ TEST_F(Plant, PublishesTheTruthOfEveryTickWhenAsked) {
 }
 
 TEST_F(Plant, SaysAtWhichTickAReadingIsStale) {
-  stale_at_ = 1;
+  side_.stale_at = 1;
   start(options(2));
   for (std::int64_t k = 0; k <= 2; ++k) {
     const auto s = first_state(k);
@@ -173,7 +168,7 @@ TEST_F(Plant, SaysAtWhichTickAReadingIsStale) {
 }
 
 TEST_F(Plant, PublishesNothingOfTheTickThatDiverges) {
-  breaks_at_ = 1;
+  side_.breaks_at = 1;
   start(options(9));
   expect_state(0);
   script_.send("COMMAND", command(0));
@@ -242,7 +237,7 @@ TEST_F(Plant, ThatHoldsGoesOnPastTheLastTickAndHasFinishedWhenStopped) {
 TEST_F(Plant, KeepsToThePaceThatItIsGiven) {
   PlantOptions o = options(20);
   o.speed = 1;
-  plant_.emplace(o, side());
+  plant_.emplace(o, side_);
   Instant first{0}, last{0};
   for (std::int64_t k = 0; k <= 20; ++k) {
     ASSERT_TRUE(first_state(k));

@@ -43,6 +43,12 @@ class Controller : public testing::Test {
     EXPECT_EQ(c->tau_commanded[0], psi);
     EXPECT_EQ(c->tau_commanded[1], static_cast<double>(tick));
   }
+  /// Sends a tick's state and reference.
+  void expect_answer(std::int64_t tick, double psi) {
+    script_.send_state(tick);
+    script_.send_reference(tick, psi);
+    expect_command(tick, psi);
+  }
   /// Ends the peer and waits, after which its report may be read.
   const PeerReport& report() {
     script_.send_end();
@@ -81,23 +87,17 @@ TEST_F(Controller, RepeatsTheSameBytesForARepeatedState) {
 
 TEST_F(Controller, DropsAndCountsWhatIsOver) {
   start();
-  script_.send_state(0);
-  script_.send_reference(0);
-  expect_command(0, 0);
-  script_.send_state(3);
-  script_.send_reference(3, 3);
-  expect_command(3, 3);
+  expect_answer(0, 0);
+  expect_answer(3, 3);
   script_.send_state(2);
   script_.send_reference(2);
   EXPECT_TRUE(script_.silent("COMMAND"));
-  EXPECT_EQ(report().rejects.stale, 2U);
+  EXPECT_EQ(report().rejects.of(Reject::stale), 2U);
 }
 
 TEST_F(Controller, RejectsByCauseAndGoesOn) {
   start();
-  script_.send_state(0);
-  script_.send_reference(0);
-  expect_command(0, 0);
+  expect_answer(0, 0);
 
   const auto spoil = [this](auto change) {
     auto s = ScriptedPeer::message<state_t>(1);
@@ -116,17 +116,10 @@ TEST_F(Controller, RejectsByCauseAndGoesOn) {
   script_.send("REFERENCE", far);
   script_.send_end(5);
 
-  script_.send_state(1);
-  script_.send_reference(1, 1);
-  expect_command(1, 1);
-  const Rejects r = report().rejects;
-  EXPECT_EQ(r.not_finite, 1U);
-  EXPECT_EQ(r.session, 2U) << "a state and an END";
-  EXPECT_EQ(r.config, 1U);
-  EXPECT_EQ(r.tick, 3U);
-  EXPECT_EQ(r.dimension, 1U);
-  EXPECT_EQ(r.fingerprint, 1U);
-  EXPECT_EQ(r.length, 1U);
+  expect_answer(1, 1);
+  // Of another session: a state and an END.
+  EXPECT_EQ(to_string(report().rejects),
+            "1 length, 1 fingerprint, 1 dimension, 1 not_finite, 2 session, 1 config, 3 tick");
 }
 
 TEST_F(Controller, WithAGivenSessionTakesReferencesBeforeTheFirstState) {
@@ -210,10 +203,8 @@ TEST_F(Controller, IsNotEndedBySingleDamagedMessagesBeforeAGoodOne) {
     state.config ^= 1LL << (i / 2);
     script_.send("STATE", state);
   }
-  script_.send_state(0);
-  script_.send_reference(0, 10);
-  expect_command(0, 10);
-  EXPECT_EQ(report().rejects.config, 20U);
+  expect_answer(0, 10);
+  EXPECT_EQ(report().rejects.of(Reject::config), 20U);
 }
 
 TEST_F(Controller, DoesNotBelieveInTicksThatNoPlantReaches) {
@@ -222,10 +213,8 @@ TEST_F(Controller, DoesNotBelieveInTicksThatNoPlantReaches) {
   state.seq = std::numeric_limits<std::int64_t>::max();
   state.flags = state_t::FLAG_HOLD;
   script_.send("STATE", state);
-  script_.send_state(0);
-  script_.send_reference(0, 10);
-  expect_command(0, 10);
-  EXPECT_EQ(report().rejects.tick, 1U);
+  expect_answer(0, 10);
+  EXPECT_EQ(report().rejects.of(Reject::tick), 1U);
 }
 
 TEST_F(Controller, RefusesAPlannerThatWasStartedWithSomethingElseByName) {
@@ -272,9 +261,7 @@ TEST_F(Controller, NamesThePlannerWhenOnlyThatIsLost) {
   PeerOptions options = kOptions;
   options.patience = 500ms;
   start(options);
-  script_.send_state(0);
-  script_.send_reference(0);
-  expect_command(0, 0);
+  expect_answer(0, 0);
   while (peer_->running()) {
     script_.send_state(1);
     std::this_thread::sleep_for(5ms);
@@ -375,7 +362,7 @@ TEST_F(Planner, SendsBothForARepeatedAndForASkippedTick) {
   expect_references({});
   script_.send_end();
   EXPECT_EQ(peer_->ending(), Ending::finished);
-  EXPECT_EQ(peer_->peer.report().rejects.stale, 1U);
+  EXPECT_EQ(peer_->peer.report().rejects.of(Reject::stale), 1U);
 }
 
 TEST_F(Planner, GoesOnPastTick2ToThe40ToTheMicrosecond) {

@@ -18,13 +18,39 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
+struct Taken {
+  std::int64_t tick, in_tick, offset;
+  double tau;
+};
+
+/// A plant that keeps what it is told.
+struct Scripted final : RealTimeSide {
+  bool measure(std::int64_t tick, std::span<double> psi, std::span<double>) override {
+    psi[0] = static_cast<double>(tick);
+    return false;
+  }
+  void truth(std::int64_t, truth_t&) override {}
+  void command(const command_t& c, std::int64_t offset) override {
+    taken.push_back({c.seq, done, offset, c.tau_commanded[0]});
+  }
+  bool finish_tick(std::int64_t tick) override {
+    done = tick + 1;
+    return tick != breaks_at;
+  }
+  void make_safe(const char* cause) override { safe = cause; }
+  bool is_safe() const override { return !safe.empty(); }
+  DeadlineCounts deadlines() const override {
+    return {.missed = 3, .longest_miss = 2, .success_last_100 = 0.97};
+  }
+
+  std::vector<Taken> taken;
+  std::atomic<std::int64_t> done = 0;  // also read while the plant runs
+  std::int64_t breaks_at = -1;
+  std::string safe;
+};
+
 class RealTime : public testing::Test {
  protected:
-  struct Taken {
-    std::int64_t tick, in_tick, offset;
-    double tau;
-  };
-
   static PlantOptions options(std::int64_t last_tick) {
     return {.n = kScriptN,
             .last_tick = last_tick,
@@ -34,26 +60,8 @@ class RealTime : public testing::Test {
             .config = kScriptConfig,
             .max_missed = 5};
   }
-  void start(const PlantOptions& o) { plant_.emplace(o, side()); }
+  void start(const PlantOptions& o) { plant_.emplace(o, side_); }
 
-  PlantSide side() {
-    PlantSide side;
-    side.measure = [](std::int64_t tick, std::span<double> psi, std::span<double>) {
-      psi[0] = static_cast<double>(tick);
-      return false;
-    };
-    side.command = [this](const command_t& c, std::int64_t offset) {
-      taken_.push_back({c.seq, done_, offset, c.tau_commanded[0]});
-    };
-    side.finish_tick = [this](std::int64_t tick) {
-      done_ = tick + 1;
-      return tick != breaks_at_;
-    };
-    side.make_safe = [this](const char* cause) { safe_ = cause; };
-    side.is_safe = [this] { return !safe_.empty(); };
-    side.deadlines = [] { return DeadlineCounts{.missed = 3, .longest_miss = 2, .success_last_100 = 0.97}; };
-    return side;
-  }
   void send_command(std::int64_t tick, double tau = 0, std::int32_t flags = 0) {
     auto c = ScriptedPeer::message<command_t>(tick);
     c.tau_commanded[0] = tau;
@@ -74,10 +82,7 @@ class RealTime : public testing::Test {
     return s.value_or(blank<state_t>(kScriptN));
   }
 
-  std::vector<Taken> taken_;
-  std::atomic<std::int64_t> done_ = 0;  // also read while the plant runs
-  std::int64_t breaks_at_ = -1;
-  std::string safe_;
+  Scripted side_;
   ScriptedPeer script_{"STATE", "SIM_CONTROL", "TIMING"};
   std::optional<RunningPeer<RealTimePlant>> plant_;
 };
@@ -86,14 +91,14 @@ TEST_F(RealTime, WaitsForTheFirstCommandAndForNoOther) {
   start(options(8));
   std::this_thread::sleep_for(50ms);
   EXPECT_EQ(state(0).flags, state_t::FLAG_REAL_TIME);
-  EXPECT_EQ(done_, 0);
+  EXPECT_EQ(side_.done, 0);
   const Instant began = now();
   send_command(0, 1);
   EXPECT_EQ(plant_->ending(), Ending::finished);
   EXPECT_GE(now() - began, 320ms) << "9 ticks of 40 ms, the first one begun";
-  EXPECT_EQ(done_, 9);
-  ASSERT_EQ(taken_.size(), 1U);
-  EXPECT_EQ(taken_[0].tick, 0);
+  EXPECT_EQ(side_.done, 9);
+  ASSERT_EQ(side_.taken.size(), 1U);
+  EXPECT_EQ(side_.taken[0].tick, 0);
   EXPECT_EQ(plant_->peer.report().wake_up.count(), 9U);
 }
 
@@ -109,14 +114,14 @@ TEST_F(RealTime, SaysWhenInItsTickACommandArrived) {
   state(3);
   send_command(3, 4);
   EXPECT_EQ(plant_->ending(), Ending::finished);
-  ASSERT_EQ(taken_.size(), 4U);
+  ASSERT_EQ(side_.taken.size(), 4U);
   for (std::size_t k = 1; k < 4; ++k) {
-    EXPECT_EQ(taken_[k].tick, static_cast<std::int64_t>(k));
-    EXPECT_EQ(taken_[k].in_tick, taken_[k].tick);
-    EXPECT_EQ(taken_[k].tau, static_cast<double>(k + 1));
-    EXPECT_LT(taken_[k].offset, 40'000'000);
+    EXPECT_EQ(side_.taken[k].tick, static_cast<std::int64_t>(k));
+    EXPECT_EQ(side_.taken[k].in_tick, side_.taken[k].tick);
+    EXPECT_EQ(side_.taken[k].tau, static_cast<double>(k + 1));
+    EXPECT_LT(side_.taken[k].offset, 40'000'000);
   }
-  EXPECT_GE(taken_[1].offset, 3'000'000);
+  EXPECT_GE(side_.taken[1].offset, 3'000'000);
   EXPECT_EQ(plant_->peer.report().round_trip.count(), 3U);
 }
 
@@ -130,8 +135,8 @@ TEST_F(RealTime, CountsOffsetsInPlantTime) {
   std::this_thread::sleep_for(4ms);
   send_command(1);
   EXPECT_EQ(plant_->ending(), Ending::finished);
-  ASSERT_EQ(taken_.size(), 2U);
-  EXPECT_GE(taken_[1].offset, 2'000'000) << "4 ms of real time";
+  ASSERT_EQ(side_.taken.size(), 2U);
+  EXPECT_GE(side_.taken[1].offset, 2'000'000) << "4 ms of real time";
 }
 
 TEST_F(RealTime, TakesALateCommandUnlessANewerOneCameOrItIsTooOld) {
@@ -150,10 +155,10 @@ TEST_F(RealTime, TakesALateCommandUnlessANewerOneCameOrItIsTooOld) {
   send_command(4, 70);  // 8 ticks late, 5 are forgiven
   EXPECT_EQ(plant_->ending(), Ending::finished);
   std::vector<double> torques;
-  for (const Taken& t : taken_) torques.push_back(t.tau);
+  for (const Taken& t : side_.taken) torques.push_back(t.tau);
   EXPECT_EQ(torques, (std::vector<double>{0, 10, 20, 40}));
-  EXPECT_EQ(plant_->peer.report().rejects.stale, 3U);
-  EXPECT_EQ(plant_->peer.report().rejects.tick, 1U);
+  EXPECT_EQ(plant_->peer.report().rejects.of(Reject::stale), 3U);
+  EXPECT_EQ(plant_->peer.report().rejects.of(Reject::tick), 1U);
 }
 
 TEST_F(RealTime, GoesIntoItsSafeStateWhereTheControllerKeepsSendingSafeCommands) {
@@ -164,7 +169,7 @@ TEST_F(RealTime, GoesIntoItsSafeStateWhereTheControllerKeepsSendingSafeCommands)
     send_command(k, 0, command_t::FLAG_SAFE);
   }
   EXPECT_EQ(plant_->ending(), Ending::finished);
-  EXPECT_THAT(safe_, HasSubstr("controller"));
+  EXPECT_THAT(side_.safe, HasSubstr("controller"));
 }
 
 TEST_F(RealTime, IsPausedAndSteppedAndGoesOn) {
@@ -174,15 +179,15 @@ TEST_F(RealTime, IsPausedAndSteppedAndGoesOn) {
   state(0);
   send_command(0);
   std::this_thread::sleep_for(150ms);
-  EXPECT_EQ(done_, 1) << "tick 0 itself is lived through";
+  EXPECT_EQ(side_.done, 1) << "tick 0 itself is lived through";
   send_control(sim_control_t::ACTION_STEP, 2);
   state(2);
   std::this_thread::sleep_for(150ms);
-  EXPECT_EQ(done_, 3);
+  EXPECT_EQ(side_.done, 3);
   send_control(sim_control_t::ACTION_RESUME);
   EXPECT_EQ(plant_->ending(), Ending::finished);
-  EXPECT_EQ(done_, 7);
-  EXPECT_EQ(safe_, "") << "a pause is no suspension";
+  EXPECT_EQ(side_.done, 7);
+  EXPECT_EQ(side_.safe, "") << "a pause is no suspension";
   EXPECT_LT(plant_->peer.report().slipped, 150ms) << "a pause is no slip";
 }
 
@@ -195,17 +200,17 @@ TEST_F(RealTime, TakesACommandThatComesInAPauseIntoTheNextTick) {
   state(0);
   send_command(0);
   send_control(sim_control_t::ACTION_STEP, 1);
-  ASSERT_TRUE(eventually([&] { return done_ == 2; }));  // and COMMAND(1) has not come
+  ASSERT_TRUE(eventually([&] { return side_.done == 2; }));  // and COMMAND(1) has not come
   std::this_thread::sleep_for(20ms);
   send_command(1, 10);
   send_command(1, 20, std::int32_t{command_t::FLAG_SAFE} + command_t::FLAG_AFTERWARDS);
   std::this_thread::sleep_for(20ms);
   send_control(sim_control_t::ACTION_RESUME);
   EXPECT_EQ(plant_->ending(), Ending::finished);
-  ASSERT_EQ(taken_.size(), 2U);
-  EXPECT_EQ(taken_[1].in_tick, 2);
-  EXPECT_EQ(taken_[1].tau, 10);
-  EXPECT_EQ(plant_->peer.report().rejects.stale, 1U);
+  ASSERT_EQ(side_.taken.size(), 2U);
+  EXPECT_EQ(side_.taken[1].in_tick, 2);
+  EXPECT_EQ(side_.taken[1].tau, 10);
+  EXPECT_EQ(plant_->peer.report().rejects.of(Reject::stale), 1U);
 }
 
 TEST_F(RealTime, IsResetByTheOperatorAndTellsWhichSessionComesNext) {
@@ -244,7 +249,7 @@ TEST_F(RealTime, PublishesItsTiming) {
 }
 
 TEST_F(RealTime, BreaksOffWhereThePlantSaysSo) {
-  breaks_at_ = 2;
+  side_.breaks_at = 2;
   start(options(10));
   state(0);
   send_command(0);
@@ -257,7 +262,7 @@ TEST_F(RealTime, HasNoSpeedMax) {
   const StopSwitch stop;
   PlantOptions o = options(1);
   o.speed = 0;
-  EXPECT_THROW(RealTimePlant(bus, stop, o, side()), InputError);
+  EXPECT_THROW(RealTimePlant(bus, stop, o, side_), InputError);
 }
 
 }  // namespace

@@ -43,28 +43,39 @@ class SteadyState {
 void print_rejects(const Rejects& r, const SteadyState& steady) {
   std::printf(R"(, "rejected": %lu, "stale": %lu, "allocations": %lu, "allocated_by": "%p"})"
               "\n",
-              r.total() - r.stale, r.stale, steady.allocations(), steady.caller());
+              r.total() - r.of(Reject::stale), r.of(Reject::stale), steady.allocations(), steady.caller());
 }
+
+class ToyPlant final : public LockstepSide {
+ public:
+  ToyPlant(SteadyState& steady, std::int64_t last_tick) : steady_(steady) {
+    commands.reserve(static_cast<std::size_t>(last_tick + 1) * toy::kN);
+  }
+  bool measure(std::int64_t tick, std::span<double> psi, std::span<double> psid) override {
+    steady_.at(tick);
+    toy_.measure(psi, psid);
+    return false;
+  }
+  bool advance(std::int64_t, std::span<const double> tau) override {
+    commands.insert(commands.end(), tau.begin(), tau.end());
+    toy_.advance(tau);
+    return true;
+  }
+  void truth(std::int64_t, truth_t&) override {}
+
+  std::vector<double> commands;
+
+ private:
+  SteadyState& steady_;
+  toy::Plant toy_;
+};
 
 int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {
   Bus bus;
   StopSwitch stop;
   stop.turn_on_signals();
   SteadyState steady(last_tick);
-  toy::Plant toy;
-  std::vector<double> commands;
-  commands.reserve(static_cast<std::size_t>(last_tick + 1) * toy::kN);
-  PlantSide side;
-  side.measure = [&](std::int64_t tick, std::span<double> psi, std::span<double> psid) {
-    steady.at(tick);
-    toy.measure(psi, psid);
-    return false;
-  };
-  side.advance = [&](std::int64_t, std::span<const double> tau) {
-    commands.insert(commands.end(), tau.begin(), tau.end());
-    toy.advance(tau);
-    return true;
-  };
+  ToyPlant side(steady, last_tick);
   LockstepPlant plant(
       bus, stop,
       {.n = toy::kN, .last_tick = last_tick, .speed = speed, .session = session, .config = toy::kConfig},
@@ -72,13 +83,18 @@ int run_plant(std::int64_t last_tick, std::int64_t session, double speed) {
   const Ending ending = plant.run();
   const PlantReport& r = plant.report();
   std::printf(R"({"ending": "%s", "digest": "%s", "ticks_done": %ld, "resent": %lu, "joined_late": %lu)",
-              name(ending).data(), toy::digest(commands).c_str(), r.ticks_done, r.resent, r.joined_late);
+              name(ending).data(), toy::digest(side.commands).c_str(), r.ticks_done, r.resent, r.joined_late);
   print_rejects(r.rejects, steady);
   return stop.turned() ? 130 : 0;
 }
 
 template <class Peer>
-int run_peer(Peer& peer, const StopSwitch& stop, const SteadyState& steady) {
+int run_peer(const PeerOptions& options, auto side_of) {
+  Bus bus;
+  StopSwitch stop;
+  stop.turn_on_signals();
+  SteadyState steady(options.last_tick);
+  Peer peer(bus, stop, options, side_of(steady));
   const Ending ending = peer.run();
   const PeerReport& r = peer.report();
   std::printf(R"({"ending": "%s", "answered": %lu, "repeated": %lu, "joined_late": %s)", name(ending).data(),
@@ -87,33 +103,23 @@ int run_peer(Peer& peer, const StopSwitch& stop, const SteadyState& steady) {
   return stop.turned() ? 130 : 0;
 }
 
-int run_controller(const PeerOptions& options) {
-  Bus bus;
-  StopSwitch stop;
-  stop.turn_on_signals();
-  SteadyState steady(options.last_tick);
+ControllerSide controller_side(SteadyState& steady) {
   ControllerSide side;
   side.compute = [&](const state_t& state, const reference_t& r, std::int64_t, std::span<double> tau) {
     steady.at(state.seq);
     toy::compute(state.psi_measured, state.psid_measured, r, tau);
     return 0;
   };
-  ControllerPeer peer(bus, stop, options, side);
-  return run_peer(peer, stop, steady);
+  return side;
 }
 
-int run_planner(const PeerOptions& options) {
-  Bus bus;
-  StopSwitch stop;
-  stop.turn_on_signals();
-  SteadyState steady(options.last_tick);
+PlannerSide planner_side(SteadyState& steady) {
   PlannerSide side;
   side.refer = [&](std::int64_t tick, reference_t& r) {
     steady.at(tick);
     toy::refer(tick, r);
   };
-  PlannerPeer peer(bus, stop, options, side);
-  return run_peer(peer, stop, steady);
+  return side;
 }
 
 }  // namespace
@@ -126,7 +132,8 @@ int main(int argc, char** argv) try {
   const double speed = argc > 4 ? std::atof(argv[4]) : 0;
   if (role == "plant") return run_plant(last_tick, session, speed);
   const PeerOptions options{.n = toy::kN, .session = session, .config = toy::kConfig, .last_tick = last_tick};
-  return role == "controller" ? run_controller(options) : run_planner(options);
+  return role == "controller" ? run_peer<ControllerPeer>(options, controller_side)
+                              : run_peer<PlannerPeer>(options, planner_side);
 } catch (const mixloop::RunFault& fault) {
   std::fprintf(stderr, "%s: %s\n", fault.code.c_str(), fault.what());
   return 3;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "commands/csv_folder.hpp"
+#include "report/csv_folder.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 
-#include "loop/keep.hpp"
+#include "loop/output_folder.hpp"
 #include "notation/errors.hpp"
 
 namespace mixloop {

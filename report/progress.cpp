@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/progress.hpp"
+#include "report/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

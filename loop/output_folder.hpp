@@ -2,18 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
-
-#include "loop/recorder.hpp"
 
 namespace mixloop {
 
 /// Makes the folder (with its parents) where results are to be kept, so that a run does not end in a folder
 /// that cannot be written. Throws RunFault("cannot_write").
 void prepare_folder(const std::filesystem::path& folder);
-
-/// Keeps a run: result.json, trajectory.csv and inputs.json. Throws RunFault("cannot_write").
-void keep(const std::filesystem::path& folder, const Experiment& experiment, const Plan& plan,
-          const Recorder& recorder, const nlohmann::json& result);
 
 }  // namespace mixloop

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/machine/stop_switch.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 #include <sys/eventfd.h>
 #include <unistd.h>

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <complex>
+
+#include "dynamics/procedure/matrix.hpp"
+
+/// What Eigen's decompositions of small dense matrices give, compiled once: each takes a compiler ten
+/// seconds.
+namespace mixloop {
+
+/// A^-1 B, A n x n, by LU with partial pivoting; not finite where A is singular.
+Matrix solved(const Matrix& A, const Matrix& B);
+
+/// The eigenvalues of a real n x n matrix, by its real Schur form.
+Vec<std::complex<double>> eigenvalues(const Matrix& A);
+
+/// e^A, by scaling and squaring (Higham 2005).
+Matrix exponential(const Matrix& A);
+
+}  // namespace mixloop

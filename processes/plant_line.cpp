@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "processes/plant_line.hpp"
+
+#include "processes/speed.hpp"
+
+namespace mixloop {
+
+PlantOptions plant_options(const PlantLine& line, const Experiment& experiment, std::int64_t last_tick,
+                           std::int64_t session) {
+  const std::string& speed = line.speed;
+  return {.n = experiment.scene->n(),
+          .last_tick = last_tick,
+          .rate_hz = experiment.rate_hz,
+          .speed = speed_of(!speed.empty()   ? speed
+                            : line.real_time ? "1"
+                                             : "max"),
+          .session = session,
+          .config = config_of(common_ground(experiment)),
+          .truth = line.truth,
+          .hold = line.hold,
+          .paused = line.paused,
+          .max_missed = experiment.deadline.max_missed,
+          .first_wait = line.first_wait_ns(),
+          .patience = line.patience_ns()};
+}
+
+}  // namespace mixloop

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "processes/plant_session.hpp"
+
+#include <fmt/format.h>
+
+#include "loop/arrivals_file.hpp"
+#include "processes/bus_figures.hpp"
+#include "processes/keep.hpp"
+#include "processes/plant_on_bus.hpp"
+#include "processes/result_json.hpp"
+#include "processes/summary.hpp"
+#include "runtime/protocol/lockstep_plant.hpp"
+#include "runtime/protocol/real_time_plant.hpp"
+
+namespace mixloop {
+
+Ending PlantSession::run(Bus& bus, const StopSwitch& stop, std::int64_t session, std::int64_t next_session) {
+  say_complaint(run_.plant().equations().complaint());
+  if (!run_.begin())
+    throw RunFault("diverged", "the start is already farther from the path than limits.position_error");
+  return line_.real_time ? run_as<RealTimePlant, RealTimeHardware>(bus, stop, session, next_session)
+                         : run_as<LockstepPlant, LockstepHardware>(bus, stop, session, next_session);
+}
+
+template <class Runner, class Hardware>
+Ending PlantSession::run_as(Bus& bus, const StopSwitch& stop, std::int64_t session,
+                            std::int64_t next_session) {
+  Hardware hardware(run_, [this](std::int64_t k) { return goes_on(k); });
+  Runner runner(bus, stop, plant_options(line_, run_.experiment(), run_.plan().ticks(), session), hardware);
+  if (line_.allow_faults) hardware.listen(bus, runner.report());
+  line_.take_rights("mixloop-plant", true);
+  return drive(runner, next_session);
+}
+
+Ending PlantSession::drive(PlantRunner& runner, std::int64_t next_session) {
+  bus_ = &runner.report();
+  try {
+    const Ending ending = runner.run();
+    if (ending == Ending::reset) {
+      runner.send_reset(next_session);
+      return ending;
+    }
+    if (ending == Ending::interrupted || ending == Ending::stopped) run_.recorder().interrupted();
+    finish(nullptr);
+    return ending;
+  } catch (const RunFault& fault) {
+    run_.recorder().interrupted();
+    finish(&fault);
+    throw;
+  }
+}
+
+/// Tick k is recorded: whether there is a next one.
+bool PlantSession::goes_on(std::int64_t k) {
+  report_.tick(k);
+  if (k != run_.plan().ticks()) return true;
+  if (!line_.hold) return false;
+  finish(nullptr);
+  if (line_.report_fd < 0) fmt::print(stderr, "mixloop-plant: holding the end point; Ctrl-C ends it\n");
+  return true;
+}
+
+/// Judges and keeps it, once; what was recorded before a fault too.
+void PlantSession::finish(const RunFault* fault) {
+  if (finished_) return;
+  finished_ = true;
+  const Experiment& experiment = run_.experiment();
+  Result result =
+      result_of(experiment, run_.recorder().measures(), line_.real_time ? "real_time" : "lockstep",
+                std::chrono::duration<double>(bus_->wall_time).count());
+  result.session = bus_->session;
+  result.bus = bus_figures(*bus_);
+  if (line_.real_time) add_deadlines(*result.bus, *bus_, run_.deadlines(), experiment.deadline.safe_state);
+  if (fault) {
+    result.judged.verdict = Verdict::fault;
+    result.judged.exit_status = kRunFault;
+    result.error = {.code = fault->code, .message = fault->what()};
+  }
+  status_ = result.judged.exit_status;
+  if (!line_.out.empty()) {
+    report_.keeping();
+    keep(line_.out, run_, result);
+    if (line_.real_time)
+      write_arrivals(std::filesystem::path(line_.out) / "ages.csv", run_.deadlines().arrivals());
+  }
+  report_.result(result);
+  if (fault) return;  // the command line tells it
+  if (line_.json)
+    print_json(json_of(result));
+  else if (line_.report_fd < 0)
+    fmt::print("{}", summary(experiment, result));
+  std::fflush(stdout);
+}
+
+}  // namespace mixloop

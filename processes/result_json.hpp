@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "loop/result.hpp"
+
+namespace mixloop {
+
+/// A result as result.json, --json and the report line have it. What isn't finite is null.
+nlohmann::json json_of(const Result& result);
+
+/// A run's result read back. Throws nlohmann::json::exception where it isn't one.
+Result result_in(const nlohmann::json& json);
+
+}  // namespace mixloop
