@@ -2,6 +2,7 @@
 // A log's messages as CSV, a file a channel.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <iterator>
 #include <map>

@@ -2,6 +2,7 @@
 // What happens on the bus, in a terminal.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 

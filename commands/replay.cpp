@@ -2,6 +2,7 @@
 // A log's states and references through the controller again: does it command the same bytes?
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

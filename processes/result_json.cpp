@@ -1,104 +1,99 @@
 // SPDX-License-Identifier: MIT
 #include "processes/result_json.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace mixloop {
 namespace {
 
-using nlohmann::json;
-
-// The keys of each struct stand once, in `fields`, for both ways: a Writer or a Reader goes over them.
-
-class Writer {
+/// Goes over the keys of a struct, which stand once, in `fields`: writes them into JSON or, where that is
+/// constant, reads them from it.
+template <class Json>
+class Keys {
  public:
-  explicit Writer(json& to) : to_(to) {}
-
-  template <class T>
-  void operator()(const std::string& key, const T& value) const {
-    put(to_[key], value);
-  }
-  template <class T>
-  void operator()(const std::string& key, const std::optional<T>& value) const {
-    if (value) put(to_[key], *value);
-  }
-  /// The struct's own keys among these, where there is one; `key` is one that it always has.
-  template <class T, class Fields>
-  void among(const std::string&, const std::optional<T>& value, const Fields& fields) const {
-    if (value) fields(*this, *value);
-  }
-  template <class Fields>
-  void group(const std::string& key, const Fields& fields) const {
-    fields(Writer(to_[key]));
-  }
-
- private:
-  template <class T>
-  static void put(json& to, const T& value) {
-    if constexpr (requires(const Writer& w) { fields(w, value); })
-      fields(Writer(to), value);
-    else
-      to = value;
-  }
-  static void put(json& to, const Verdict& value) { to = name_of(value); }
-  static void put(json& to, const Vector& value) { to = std::vector<double>(value.begin(), value.end()); }
-  template <class T>
-  static void put(json& to, const std::vector<T>& values) {
-    to = json::array();
-    for (const T& value : values) put(to.emplace_back(), value);
-  }
-
-  json& to_;
-};
-
-class Reader {
- public:
-  explicit Reader(const json& from) : from_(from) {}
+  explicit Keys(Json& at) : json_(at) {}
 
   template <class T>
   void operator()(const std::string& key, T& value) const {
-    get(from_.at(key), value);
+    pass(at(key), value);
   }
   template <class T>
   void operator()(const std::string& key, std::optional<T>& value) const {
-    if (from_.contains(key)) get(from_.at(key), value.emplace());
+    if (has(key, value)) pass(at(key), *value);
   }
+  template <class T>
+  void operator()(const std::string& key, const std::optional<T>& value) const {
+    if (value) pass(at(key), *value);
+  }
+  /// The keys of an optional struct stand among these; `key` is one that it always has.
   template <class T, class Fields>
-  void among(const std::string& key, std::optional<T>& value, const Fields& fields) const {
-    if (from_.contains(key)) fields(*this, value.emplace());
+  void among(const std::string& key, T& value, const Fields& fields) const {
+    if (has(key, value)) fields(*this, *value);
   }
   template <class Fields>
   void group(const std::string& key, const Fields& fields) const {
-    fields(Reader(from_.at(key)));
+    fields(Keys(at(key)));
   }
 
  private:
-  template <class T>
-  static void get(const json& from, T& value) {
-    if constexpr (requires(const Reader& r) { fields(r, value); })
-      fields(Reader(from), value);
+  static constexpr bool kReads = std::is_const_v<Json>;
+
+  Json& at(const std::string& key) const {
+    if constexpr (kReads)
+      return json_.at(key);
     else
-      from.get_to(value);
-  }
-  static void get(const json& from, double& value) { value = from.is_null() ? NAN : from.get<double>(); }
-  static void get(const json& from, Verdict& value) {
-    const auto word = from.get<std::string>();
-    value = Verdict::held;
-    while (name_of(value) != word && value != Verdict::fault)
-      value = static_cast<Verdict>(static_cast<int>(value) + 1);
-  }
-  static void get(const json& from, Vector& value) {
-    value.resize(static_cast<Eigen::Index>(from.size()));
-    for (std::size_t i = 0; i < from.size(); ++i) get(from[i], value[static_cast<Eigen::Index>(i)]);
+      return json_[key];
   }
   template <class T>
-  static void get(const json& from, std::vector<T>& values) {
-    for (const json& item : from) get(item, values.emplace_back());
+  bool has(const std::string& key, T& value) const {
+    if constexpr (kReads)
+      if (json_.contains(key)) value.emplace();
+    return value.has_value();
   }
 
-  const json& from_;
+  template <class T>
+  static void pass(Json& json, T& value) {
+    if constexpr (requires(const Keys& keys) { fields(keys, value); })
+      fields(Keys(json), value);
+    else if constexpr (kReads)
+      read(json, value);
+    else
+      write(json, value);
+  }
+  template <class T>
+  static void read(Json& json, T& value) {
+    json.get_to(value);
+  }
+  static void read(Json& json, double& value) { value = json.is_null() ? NAN : json.template get<double>(); }
+  static void read(Json& json, Verdict& value) {
+    value = Verdict::held;
+    while (json != name_of(value) && value != Verdict::fault)
+      value = static_cast<Verdict>(static_cast<int>(value) + 1);
+  }
+  static void read(Json& json, Vector& values) {
+    values.resize(static_cast<Eigen::Index>(json.size()));
+    for (std::size_t i = 0; i < json.size(); ++i) read(json[i], values[static_cast<Eigen::Index>(i)]);
+  }
+  template <class T>
+  static void read(Json& json, std::vector<T>& values) {
+    values.resize(json.size());
+    for (std::size_t i = 0; i < json.size(); ++i) pass(json[i], values[i]);
+  }
+  template <class T>
+  static void write(Json& json, const T& value) {
+    json = value;
+  }
+  static void write(Json& json, const Verdict& value) { json = name_of(value); }
+  static void write(Json& json, const Vector& values) {
+    json = std::vector<double>(values.begin(), values.end());
+  }
+  template <class T>
+  static void write(Json& json, const std::vector<T>& values) {
+    json = nlohmann::json::array();
+    for (const T& value : values) pass(json.emplace_back(), value);
+  }
+
+  Json& json_;
 };
 
 template <class T, class U>
@@ -230,9 +225,9 @@ void fields(const Way& f, R& result) {
 
 }  // namespace
 
-json json_of(const Result& result) {
-  json out = json::object();
-  const Writer f(out);
+nlohmann::json json_of(const Result& result) {
+  auto out = nlohmann::json::object();
+  const Keys f(out);
   if (result.run) {
     fields(f, result);
   } else if (result.error) {
@@ -248,9 +243,9 @@ json json_of(const Result& result) {
   return out;
 }
 
-Result result_in(const json& json) {
+Result result_in(const nlohmann::json& json) {
   Result result;
-  fields(Reader(json), result);
+  fields(Keys(json), result);
   return result;
 }
 
