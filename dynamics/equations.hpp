@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dynamics/procedure/purpose.hpp"
 #include "dynamics/program/routine.hpp"
-#include "dynamics/purpose.hpp"
 #include "dynamics/scene/scene.hpp"
 
 namespace mixloop {

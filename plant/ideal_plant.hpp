@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/purpose.hpp"
+#include "dynamics/procedure/purpose.hpp"
 #include "integrators/integrator.hpp"
 #include "plant/plant_model.hpp"
 #include "plant/plant_state.hpp"

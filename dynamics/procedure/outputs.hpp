@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/procedure/procedure.hpp"
-#include "dynamics/purpose.hpp"
+#include "dynamics/procedure/purpose.hpp"
 
 namespace mixloop {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/procedure/purpose.hpp"
 #include "dynamics/program/source.hpp"
-#include "dynamics/purpose.hpp"
 #include "dynamics/scene/scene.hpp"
 
 namespace mixloop {

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "dynamics/procedure/purpose.hpp"
 #include "dynamics/program/routine.hpp"
-#include "dynamics/purpose.hpp"
 #include "dynamics/scene/scene.hpp"
 
 namespace mixloop {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/status.hpp"
+#include "dynamics/program/status.hpp"
 
 namespace mixloop {
 

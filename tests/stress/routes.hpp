@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/procedure/purpose.hpp"
 #include "dynamics/procedure/workspace.hpp"
 #include "dynamics/program/routine.hpp"
-#include "dynamics/purpose.hpp"
 
 namespace mixloop::stress {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/procedure/purpose.hpp"
 #include "dynamics/program/routine.hpp"
-#include "dynamics/purpose.hpp"
 #include "tests/oracles/in_wide.hpp"
 
 namespace mixloop::testing {
