@@ -28,7 +28,7 @@ set(MIXLOOP_GENERATOR_SOURCES
 
 set(MIXLOOP_GENERATOR_HASH "")
 file(GLOB generator_headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
-     purpose.hpp symbolic/*.hpp procedure/*.hpp scene/*.hpp program/*.hpp ../notation/formula.hpp)
+     symbolic/*.hpp procedure/*.hpp scene/*.hpp program/*.hpp ../notation/formula.hpp)
 foreach(file IN LISTS MIXLOOP_GENERATOR_SOURCES generator_headers)
   file(SHA256 ${CMAKE_CURRENT_SOURCE_DIR}/${file} hash)
   string(SHA256 MIXLOOP_GENERATOR_HASH "${MIXLOOP_GENERATOR_HASH}${hash}")
