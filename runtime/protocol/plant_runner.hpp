@@ -19,8 +19,8 @@ class PlantRunner {
   /// Tells the peers which session comes after a reset.
   void send_reset(std::int64_t next) { port_.send_reset(next); }
 
-  const PlantReport& report() const { return port_.report; }  ///< true after run() has thrown, too
-  PlantReport& report() { return port_.report; }              ///< to count what else the process hears
+  /// Stands after run() has thrown, too; the process counts in it what else it hears.
+  PlantReport& report() { return port_.report; }
 
  protected:
   PlantRunner(Bus& bus, const StopSwitch& stop, const PlantOptions& options, PlantSide& plant,
