@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
