@@ -27,8 +27,9 @@ void RecordedPlant::make_safe(const char* cause) {
 void RecordedPlant::take(std::span<const Fault> faults) {
   for (const Fault& fault : faults) hardware_.inject(fault);
   const Faults::State* state = plant().faults();
-  recorder_.note_changes(plant().tick(), state);
-  faulty_ = state && state->active;
+  if (!state) return;
+  recorder_.note_changes(plant().tick(), *state);
+  faulty_ = state->active;
 }
 
 bool RecordedPlant::record_state() {

@@ -38,14 +38,14 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
   conditions_.reserve(row_of_conditions_ * (1 + 2 * faults));
 }
 
-void Recorder::note_changes(std::int64_t k, const Faults::State* faults) {
-  if (!faults || faults->changed_at != k) return;
+void Recorder::note_changes(std::int64_t k, const Faults::State& faults) {
+  if (faults.changed_at != k) return;
   const bool full = conditions_.size() + row_of_conditions_ > conditions_.capacity();
   const bool same_tick = conditions_[conditions_.size() - row_of_conditions_] == static_cast<double>(k);
   if (full || same_tick) conditions_.resize(conditions_.size() - row_of_conditions_);
   conditions_.push_back(static_cast<double>(k));
-  conditions_.push_back(faults->friction);
-  conditions_.insert(conditions_.end(), faults->parameters.begin(), faults->parameters.end());
+  conditions_.push_back(faults.friction);
+  conditions_.insert(conditions_.end(), faults.parameters.begin(), faults.parameters.end());
 }
 
 Recorder::Conditions Recorder::conditions(std::int64_t k) const {

@@ -23,8 +23,8 @@ class Recorder {
   /// Takes the command of tick k, which completes the tick. False where it is not finite.
   bool command(std::int64_t k, std::span<const double> tau, std::span<const double> applied);
 
-  /// Keeps what faults have changed at tick k, if anything; before its command. `faults` may be null.
-  void note_changes(std::int64_t k, const Faults::State* faults);
+  /// Keeps what faults have changed at tick k, if anything; before its command.
+  void note_changes(std::int64_t k, const Faults::State& faults);
 
   void interrupted();
   /// From tick k on the plant is in its safe state: recorded, and judged no more.
