@@ -115,12 +115,12 @@ TEST(Faults, ChangeAParameterAndGiveItBack) {
                                         .duration = 0.1}}));
   go_on(plant, 100, 2);
   EXPECT_NEAR(plant.psid()[0], 0.2, 1e-14);  // a few hundred roundings of numbers below 1
-  EXPECT_TRUE(plant.faults()->active());
-  EXPECT_EQ(plant.faults()->changed_at(), 100);
-  EXPECT_EQ(plant.faults()->parameters()[0], 3);
+  EXPECT_TRUE(plant.faults()->active);
+  EXPECT_EQ(plant.faults()->changed_at, 100);
+  EXPECT_EQ(plant.faults()->parameters[0], 3);
   go_on(plant, 100, 2);
   EXPECT_NEAR(plant.psid()[0], 0.25, 1e-14);
-  EXPECT_FALSE(plant.faults()->active());
+  EXPECT_FALSE(plant.faults()->active);
   go_on(plant, 100, 2);
   EXPECT_NEAR(plant.psid()[0], 0.45, 1e-14);
 }

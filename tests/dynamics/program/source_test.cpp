@@ -57,7 +57,7 @@ TEST(Source, ALongProgramBuildsWithoutAWarning) {
 TEST(Source, HoldsNoTextOfTheScene) {
   Scene scene = load_scene(MIXLOOP_SCENES "/mixed_loop_robot.yaml");
   scene.name = "*/ int evil() { return 1; } /*";
-  for (auto& motor : scene.motors()) motor.name = "evil";
+  for (auto& coordinate : scene.independent) coordinate.name = "evil";
   for (auto& coordinate : scene.coordinates) coordinate.name = "evil";
   for (auto& parameter : scene.parameters) parameter.name = "evil";
   for (auto& body : scene.bodies) body.name = "evil";
