@@ -86,7 +86,7 @@ TEST(Curves, BalancesEnergyAndPower) {
 
 TEST(Curves, LeavesWhatIsUnknownEmpty) {
   Curves curves({0, 1, 2}, 1, 8);
-  Tick unknown(1);
+  Tick unknown({.n = 1, .n_u = 1});
   curves.add(unknown);
   for (const auto& curve : curves.all()) EXPECT_TRUE(curve.envelope.empty()) << curve.name;
   EXPECT_TRUE(std::isnan(curves.tracking_error().max));

@@ -31,6 +31,19 @@ TEST(TrajectoryReader, FindsColumnsByTheirNames) {
   EXPECT_EQ(ticks[1].psi_desired[0], 7);
 }
 
+TEST(TrajectoryReader, TellsMotorsFromCoordinates) {
+  ScratchFolder folder;
+  TrajectoryReader reader(
+      folder.write("t.csv", "t,psi_1,psi_2,psid_1,psid_2,tau_1,psi_desired_1\n0,1,2,3,4,5,6\n"));
+  EXPECT_EQ(reader.sizes().n, 2u);
+  EXPECT_EQ(reader.sizes().n_u, 1u);
+  reader.read(0, [](const Tick& tick) {
+    EXPECT_EQ(tick.psid, (std::vector<double>{3, 4}));
+    EXPECT_EQ(tick.tau, std::vector<double>{5});
+    EXPECT_EQ(tick.psi_desired, std::vector<double>{6});
+  });
+}
+
 class BadTrajectory : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadTrajectory, IsRefusedWithItsPlace) {

@@ -59,7 +59,7 @@ TEST(FewerMotors, ThePlantTakesTheirCommandsAlone) {
   script.send("COMMAND", of_motors<command_t>(0, kN));
   script.send("COMMAND", of_motors<command_t>(0));
   EXPECT_EQ(plant.ending(), Ending::finished);
-  EXPECT_EQ(plant.peer.report().rejects.dimension, 1U);
+  EXPECT_EQ(plant.peer.report().rejects.of(Reject::dimension), 1U);
   EXPECT_EQ(side.measured, std::size_t{kN});
   EXPECT_EQ(side.commanded, std::size_t{kMotors});
 }
