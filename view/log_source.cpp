@@ -7,7 +7,7 @@
 namespace mixloop {
 namespace {
 
-constexpr std::size_t kMostPoints = 4000;  // of each plot
+constexpr std::size_t kMostOfAPlot = 4000;  // of each plot
 
 RunFile opened(const std::filesystem::path& path, const ReadOptions& options) {
   RunFile run = open_run(path, options);
@@ -69,7 +69,7 @@ std::string LogSource::at_tick(std::int64_t k) {
   pose.psi.assign(row, row + n);
   pose.tau.assign(row + n, row + n + n_u);
   pose.desired = Eigen::Map<const Eigen::Vector3d>(row + n + n_u);
-  return pose_json(skeleton_, pose, k == run_.first_tick ? traces_.since(0, kMostPoints) : std::string());
+  return pose_json(skeleton_, pose, k == run_.first_tick ? traces_.since(0, kMostOfAPlot) : std::string());
 }
 
 }  // namespace mixloop
