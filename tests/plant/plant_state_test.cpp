@@ -135,7 +135,7 @@ TEST(PlantStates, OfDeadlinesPutBackGiveTheSameBytesAgain) {
   for (const char* how : {"hold", "brake"}) {
     const Experiment experiment = load_experiment(
         std::filesystem::path(MIXLOOP_EXPERIMENTS "/paper.yaml"),
-        {{"plant.command_delay", "300 us"}, {"real_time.max_missed", "6"}, {"real_time.safe_state", how}});
+        {{"plant.command_delay", "300 us"}, {"real_time.max_missed", "10"}, {"real_time.safe_state", how}});
     const Plan plan = make_plan(experiment);
     DeadlinePlant hardware = make_deadline_plant(experiment, plan);
     const auto live = [&](std::int64_t ticks) {
