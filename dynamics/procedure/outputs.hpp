@@ -28,11 +28,12 @@ void put_mass_times(const Model<T>& model, std::span<const T> psi, std::span<con
 
 }  // namespace detail
 
-/// What a purpose gives, by the procedure. Not of linearisation, whose derivatives it doesn't know.
+/// What a purpose gives, by the procedure; spans may be longer than it takes. Not of linearisation, whose derivatives it doesn't know.
 template <class T>
 void put_outputs(Purpose purpose, const Model<T>& model, std::span<const T> psi, std::span<const T> psid,
                  std::span<const T> input, const T& t, Workspace<T>& ws, T* out) {
   using detail::put;
+  const auto n = static_cast<std::size_t>(model.n()), n_u = static_cast<std::size_t>(model.n_u());
   switch (purpose) {
     case Purpose::forward_dynamics:
       put(forward_dynamics(model, psi, psid, input, t, ws), out);
@@ -47,7 +48,7 @@ void put_outputs(Purpose purpose, const Model<T>& model, std::span<const T> psi,
       put(bias(model, psi, psid, t, ws), out);
       break;
     case Purpose::inverse_dynamics:
-      put(inverse_dynamics(model, psi, psid, input, t, ws), out);
+      put(inverse_dynamics(model, psi, psid, input.first(n), t, ws), out);
       break;
     case Purpose::end_effector: {
       const auto& state = end_effector(model, psi, psid, input, t, ws);
@@ -60,12 +61,10 @@ void put_outputs(Purpose purpose, const Model<T>& model, std::span<const T> psi,
       out[1] = sum.potential;
       break;
     }
-    case Purpose::dynamics_and_mass_times: {
-      const auto n_u = static_cast<std::size_t>(model.n_u());
-      put(forward_dynamics(model, psi, psid, input.first(n_u), t, ws), out);
-      detail::put_mass_times(model, psi, input.subspan(n_u), t, ws, out + model.n());
+    case Purpose::dynamics_and_mass_times:
+      put(forward_dynamics(model, psi, psid, input, t, ws), out);
+      detail::put_mass_times(model, psi, input.subspan(n_u), t, ws, out + n);
       break;
-    }
     case Purpose::linearisation:
       break;
   }
