@@ -46,10 +46,12 @@ target_compile_options(mixloop_tests INTERFACE $<$<CONFIG:Release>:-O1>)
 
 set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory>
     <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
+# GCC takes a precompiled header only where the same macros are defined: these libraries define some.
+target_link_libraries(mixloop_numbers INTERFACE Eigen3::Eigen fmt::fmt)
+target_link_libraries(mixloop_people INTERFACE Eigen3::Eigen fmt::fmt)
 mixloop_precompiled(numbers ${standard} <Eigen/Dense> <fmt/format.h>)
 mixloop_precompiled(people ${standard} <Eigen/Core> <fmt/format.h>)
 if(MIXLOOP_TESTS)
-  # GCC takes a precompiled header only where the same macros are defined.
   target_link_libraries(mixloop_tests INTERFACE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json GTest::gmock)
   mixloop_precompiled(tests ${standard} <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <gmock/gmock.h> <gtest/gtest.h>)
 endif()

@@ -6,19 +6,19 @@
 namespace mixloop {
 namespace {
 
-thread_local Graph* recording = nullptr;
+thread_local Graph* recorded_on = nullptr;
 
 Graph& graph() { return recording_graph(); }
 
 }  // namespace
 
 Graph& recording_graph() {
-  if (recording == nullptr) throw std::logic_error("an expression is used while nothing records");
-  return *recording;
+  if (recorded_on == nullptr) throw std::logic_error("an expression is used while nothing records");
+  return *recorded_on;
 }
 
-Recording::Recording(Graph& graph) : before_(recording) { recording = &graph; }
-Recording::~Recording() { recording = before_; }
+Recording::Recording(Graph& graph) : before_(recorded_on) { recorded_on = &graph; }
+Recording::~Recording() { recorded_on = before_; }
 
 Expression Expression::of(NodeId id) {
   if (auto number = graph().number(id)) return *number;

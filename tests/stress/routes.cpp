@@ -14,8 +14,6 @@
 
 namespace mixloop::stress {
 
-using testing::Wide;
-
 std::string State::text() const {
   return text_of("psi", psi) + "; " + text_of("psid", psid) + "; " + text_of("input", input) +
          "; t = " + std::to_string(t);

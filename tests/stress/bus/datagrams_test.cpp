@@ -91,10 +91,9 @@ std::int64_t total(const Counts& counts) {
 
 /// What the plant says that it has dropped.
 Counts counted(const timing_t& t) {
-  return {{"length", t.rejected_length},       {"fingerprint", t.rejected_fingerprint},
-          {"dimension", t.rejected_dimension}, {"not_finite", t.rejected_not_finite},
-          {"session", t.rejected_session},     {"config", t.rejected_config},
-          {"tick", t.rejected_tick},           {"stale", t.rejected_stale}};
+  Counts counts;
+  for (const RejectRow& row : kRejects) counts[std::string(row.name)] = t.*row.timed;
+  return counts;
 }
 
 /// What each process must have dropped.
@@ -103,7 +102,8 @@ class Expected {
   void count(const Garbage::Datagram& d) {
     for (const Part part : kParts)
       if (hears(part, d.channel))
-        ++counts_[static_cast<std::size_t>(part)][std::string(mixloop::name(d.cause))];
+        ++counts_[static_cast<std::size_t>(part)]
+                 [std::string(kRejects[static_cast<std::size_t>(d.cause)].name)];
   }
   const Counts& of(Part part) const { return counts_[static_cast<std::size_t>(part)]; }
   std::int64_t total(Part part) const { return stress::total(of(part)); }
