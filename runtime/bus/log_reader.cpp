@@ -14,7 +14,7 @@ namespace mixloop {
 namespace {
 
 constexpr std::uint8_t kMagic[] = {0xED, 0xA1, 0xDA, 0x01};
-constexpr std::size_t kHeader = sizeof kMagic + 2 * 8 + 2 * 4;
+constexpr std::size_t kEventHeader = sizeof kMagic + 2 * 8 + 2 * 4;
 constexpr std::size_t kBlock = 1 << 20;
 constexpr std::uint64_t kLongestChannel = 1000;  // LCM's own bound on what it reads
 
@@ -80,18 +80,18 @@ const LogEvent* LogReader::next() {
 // An event is whole where its lengths can be, its bytes are there, and the next event or the file's end
 // follows.
 bool LogReader::read_event() {
-  if (!have(kHeader) || !is_magic(&window_[at_])) return false;
+  if (!have(kEventHeader) || !is_magic(&window_[at_])) return false;
   const std::uint64_t channel_length = big_endian<std::uint32_t>(&window_[at_ + 20]),
                       data_length = big_endian<std::uint32_t>(&window_[at_ + 24]);
   if (channel_length == 0 || channel_length >= kLongestChannel) return false;
-  const std::size_t length = kHeader + channel_length + data_length;
+  const std::size_t length = kEventHeader + channel_length + data_length;
   if (!have(length)) return false;
   if (have(length + sizeof kMagic) && !is_magic(&window_[at_ + length])) return false;
   const std::uint8_t* at = &window_[at_];
   event_ = {.number = big_endian<std::int64_t>(at + 4),
             .received_us = big_endian<std::int64_t>(at + 12),
-            .channel = {reinterpret_cast<const char*>(at + kHeader), channel_length},
-            .data = {at + kHeader + channel_length, data_length}};
+            .channel = {reinterpret_cast<const char*>(at + kEventHeader), channel_length},
+            .data = {at + kEventHeader + channel_length, data_length}};
   at_ += length;
   return true;
 }
