@@ -74,7 +74,8 @@ TEST(Golden, EverySceneHasItsPrograms) {
   for (const std::string& scene : scenes) {
     Command command({bin("mixloop"), "explain", MIXLOOP_SOURCE "/scenes/" + scene + ".yaml", "--json"});
     ASSERT_EQ(command.wait(), 0) << command.err();
-    for (const auto& [purpose, program] : command.json().at("quantities").items()) {
+    const nlohmann::json explained = command.json();
+    for (const auto& [purpose, program] : explained.at("quantities").items()) {
       std::string text = program.at("tracing").get<std::string>() + " " + counts(program.at("pruned")) +
                          "| " + counts(program.at("set_up"));
       text.pop_back();

@@ -48,11 +48,13 @@ TEST(PlantOfACrane, AcceleratesByItsMotor) {
 TEST(PlantOfACrane, HasTheEnergyThatItsMotorHasGiven) {
   for (const auto& [method, most] : {std::pair("rk4", 1e-8), std::pair("rodas4", 1e-4)}) {
     Plant plant = crane_plant(settings_from(std::string("{integrator: ") + method + "}"));
+    double swing = 0;
     for (int k = 0; k < 1000; ++k) {
       plant.command(std::array{4 * std::sin(0.01 * k)});
       plant.advance();
+      swing = std::max(swing, std::abs(plant.psi()[1]));
     }
-    EXPECT_GT(std::abs(plant.psi()[1]), 0.1) << "it swings";
+    EXPECT_GT(swing, 0.1);
     EXPECT_NEAR(energy(plant), plant.work(), most) << method;
   }
 }
