@@ -50,7 +50,7 @@ TEST(PlantOfACrane, HasTheEnergyThatItsMotorHasGiven) {
     Plant plant = crane_plant(settings_from(std::string("{integrator: ") + method + "}"));
     double swing = 0;
     for (int k = 0; k < 1000; ++k) {
-      plant.command(std::array{4 * std::sin(0.01 * k)});
+      plant.command(std::array{4 * std::sin(0.004 * k)});
       plant.advance();
       swing = std::max(swing, std::abs(plant.psi()[1]));
     }
