@@ -28,7 +28,8 @@ void put_mass_times(const Model<T>& model, std::span<const T> psi, std::span<con
 
 }  // namespace detail
 
-/// What a purpose gives, by the procedure; spans may be longer than it takes. Not of linearisation, whose derivatives it doesn't know.
+/// What a purpose gives, by the procedure; spans may be longer than it takes. Not of linearisation, whose
+/// derivatives it doesn't know.
 template <class T>
 void put_outputs(Purpose purpose, const Model<T>& model, std::span<const T> psi, std::span<const T> psid,
                  std::span<const T> input, const T& t, Workspace<T>& ws, T* out) {
