@@ -232,7 +232,7 @@ NodePtr parse_document(std::string_view text, const std::string& file) {
   try {
     YAML::Parser parser(stream);
     parser.HandleNextDocument(builder);
-    const NodePtr root = builder.root();
+    NodePtr root = builder.root();
     if (!root || root->kind == Node::Kind::empty)
       throw InputError("empty_file", {file}, "found nothing; expected YAML");
     if (parser.HandleNextDocument(builder))

@@ -96,7 +96,7 @@ Line tracking(const WatchView& view) {
 std::string bar(double value, double limit, std::size_t half) {
   std::string left(half, ' '), right(half, ' ');
   const double part = limit > 0 ? std::abs(value) / limit : 0;
-  const auto filled = static_cast<std::size_t>(std::min(part, 1.0) * static_cast<double>(half) + 0.5);
+  const auto filled = static_cast<std::size_t>(std::lround(std::min(part, 1.0) * static_cast<double>(half)));
   std::string& side = value < 0 ? left : right;
   for (std::size_t i = 0; i < filled; ++i) side[value < 0 ? half - 1 - i : i] = '=';
   if (part > 1) side[value < 0 ? 0 : half - 1] = value < 0 ? '<' : '>';

@@ -84,7 +84,7 @@ void constant_cos_sin(double angle, T& cosine, T& sine) {
 /// The model of `scene` at these parameter values (as its default_parameters()).
 /// The scene has been checked for its defaults; check_physical does so for others.
 template <class T>
-Model<T> make_model(std::shared_ptr<const Scene> scene, std::span<const T> parameters) {
+Model<T> make_model(const std::shared_ptr<const Scene>& scene, std::span<const T> parameters) {
   using std::cos, std::sin;
   const Symbols symbols(*scene);
   Model<T> model;

@@ -3,7 +3,7 @@
 
 namespace mixloop {
 
-template Model<Wide> make_model(std::shared_ptr<const Scene>, WideSpan);
+template Model<Wide> make_model(const std::shared_ptr<const Scene>&, WideSpan);
 template const Mat<Wide>& mass_matrix(const Model<Wide>&, WideSpan, const Wide&, Workspace<Wide>&);
 template const Vec<Wide>& bias(const Model<Wide>&, WideSpan, WideSpan, const Wide&, Workspace<Wide>&);
 template const Vec<Wide>& inverse_dynamics(const Model<Wide>&, WideSpan, WideSpan, WideSpan, const Wide&,

@@ -12,7 +12,7 @@ namespace mixloop {
 using oracle::Wide;
 using WideSpan = std::span<const Wide>;
 
-extern template Model<Wide> make_model(std::shared_ptr<const Scene>, WideSpan);
+extern template Model<Wide> make_model(const std::shared_ptr<const Scene>&, WideSpan);
 extern template const Mat<Wide>& mass_matrix(const Model<Wide>&, WideSpan, const Wide&, Workspace<Wide>&);
 extern template const Vec<Wide>& bias(const Model<Wide>&, WideSpan, WideSpan, const Wide&, Workspace<Wide>&);
 extern template const Vec<Wide>& inverse_dynamics(const Model<Wide>&, WideSpan, WideSpan, WideSpan,
