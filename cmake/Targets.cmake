@@ -36,8 +36,9 @@ function(mixloop_room room kind)
   mixloop_compiled_together(mixloop_${room})
 endfunction()
 
-# What is compiled alike. Numbers: what is evaluated in the loop, or a thousand times before it. People: what waits
-# for people and other processes, where optimising costs more time than it saves. Tests: beside those, GoogleTest.
+# What is compiled alike. Numbers: what is evaluated in the loop, or a thousand times before or after it. People: what
+# waits for people, where optimising costs more time than it saves; no templates of the procedure's or the plant's go
+# there, since of equal instances the linker keeps the first. Tests: beside those, GoogleTest.
 add_library(mixloop_numbers INTERFACE)
 add_library(mixloop_people INTERFACE)
 add_library(mixloop_tests INTERFACE)
