@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "dynamics/procedure/procedure.hpp"
+#include "dynamics/procedure/singular_mass.hpp"
 #include "loop/experiment.hpp"
 #include "notation/value.hpp"
 #include "processes/command_line.hpp"
@@ -49,6 +50,10 @@ nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<cons
   const auto psi = values_of(options.psi, "--psi", n), psid = values_of(options.psid, "--psid", n),
              tau = values_of(options.tau, "--tau", n_u);
   const double t = number_of(*parse_document(options.t, "--t"), kTime, "--t");
+
+  require_inertia(scene, parameters);
+  if (const auto why = why_mass_is_singular(model, psi, t))
+    throw InputError("singular_mass", {"--psi"}, "the mass matrix is singular at this pose: " + *why);
 
   nlohmann::json json;
   const Vector psidd = forward_dynamics<double>(model, In(psi), In(psid), In(tau), t, ws);

@@ -243,6 +243,10 @@ Result launched(const Experiment& experiment, const Launch& launch, const StopSw
   if (!launch.out.empty()) log.emplace(launch.bus, std::filesystem::path(launch.out) / "run.lcmlog");
   Run run(experiment, launch, stop, at_end, plan.ticks());
   Result result = run.wait();
+  if (result.warnings) {  // the plant's own, of the run that it had
+    say(*result.warnings, launch.quiet);
+    warnings.insert(warnings.end(), result.warnings->begin(), result.warnings->end());
+  }
   result.warnings = std::move(warnings);
   if (log) {
     const LogSummary summary = log->finish();

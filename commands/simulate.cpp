@@ -11,6 +11,7 @@
 #include "commands/warnings.hpp"
 #include "loop/arrivals.hpp"
 #include "loop/arrivals_file.hpp"
+#include "loop/review.hpp"
 #include "processes/command_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
@@ -32,7 +33,7 @@ Result simulated(Experiment loaded, const std::string& out, const StopSwitch& st
       std::any_of(arrivals.interventions.begin(), arrivals.interventions.end(), is_fault);
   const Plan plan = make_plan(loaded);
   const Experiment experiment = with_integrator_settled(loaded, plan);
-  const auto warnings = warnings_of(experiment, plan, quiet);
+  auto warnings = warnings_of(experiment, plan, quiet);
   if (!out.empty()) prepare_folder(out);
   RecordedPlant plant(experiment, plan);
   say_complaint(plant.plant().equations().complaint());
@@ -48,7 +49,10 @@ Result simulated(Experiment loaded, const std::string& out, const StopSwitch& st
     simulate_arrivals(plant, arrivals, go_on);
   const double wall_time = std::chrono::duration<double>(now() - start).count();
   Result result = result_of(experiment, plant.recorder().measures(), "simulate", wall_time);
-  result.warnings = warnings;
+  const auto afterwards = review(experiment, plan, plant.recorder());
+  say(afterwards, quiet);
+  warnings.insert(warnings.end(), afterwards.begin(), afterwards.end());
+  result.warnings = std::move(warnings);
   if (!out.empty()) keep(out, plant, result);
   return result;
 }

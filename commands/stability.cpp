@@ -4,8 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <set>
+
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
+#include "loop/review.hpp"
 #include "plant/hardware.hpp"
 #include "processes/command_line.hpp"
 #include "stability/confirmation.hpp"
@@ -130,9 +134,15 @@ std::string factor(const nlohmann::json& limit) {
 }
 
 void print(const nlohmann::json& one) {
+  if (one.contains("error")) {
+    fmt::print("\n{}: impossible: {}\n", one.at("name").get<std::string>(),
+               one["error"]["message"].get<std::string>());
+    return;
+  }
+  fmt::print("\n{}: {}\n", one.at("name").get<std::string>(), one.at("verdict").get<std::string>());
+  for (const auto& warning : one.at("warnings")) fmt::print("  warning: {}\n", warning.get<std::string>());
   const auto& start = one.at("at_start");
   const auto& path = one.at("along_path");
-  fmt::print("\n{}: {}\n", one.at("name").get<std::string>(), one.at("verdict").get<std::string>());
   fmt::print("  {:<44}{:>14}{:>14}  at\n", "", "at the start", "on the path");
   fmt::print("  {:<44}{:>14.6f}{:>14.6f}  {:.3f} s\n", "spectral radius a tick (stable below 1)",
              start["spectral_radius"].get<double>(), path["spectral_radius"].get<double>(),
@@ -161,6 +171,18 @@ void print(const nlohmann::json& one) {
                  fate["below"].get<std::string>(), fate["above"].get<std::string>());
 }
 
+/// Of the sampled loop, and of what the plant's steps make of it.
+std::string verdict_of(const PathLimits& path, const std::optional<StepDoubt>& doubt) {
+  return grows(path.radius) || (doubt && doubt->grows) ? "unstable" : path.radius >= 1 - kRadiusRounding ? "marginal" : "stable";
+}
+
+/// Where simulation and linearisation disagree, it is the plant's steps that do.
+bool contradicts(const nlohmann::json& confirmed) {
+  return std::any_of(confirmed.begin(), confirmed.end(), [](const nlohmann::json& fate) {
+    return !fate.is_null() && (fate.at("below") == name_of(Fate::grows) || fate.at("above") == name_of(Fate::decays));
+  });
+}
+
 class Study {
  public:
   explicit Study(const StabilityLine& options) : options_(options) {}
@@ -181,7 +203,7 @@ class Study {
     }
     for (std::size_t i = 0; i < variants.size(); ++i) {
       say(fmt::format("case {} of {}: {}", i + 1, variants.size(), name_of(variants[i])));
-      json["cases"].push_back(study(variants[i]));
+      json["cases"].push_back(i == 0 ? study(variants[i]) : study_if_possible(variants[i]));
     }
     say("");
     if (!options_.picture.empty())
@@ -197,6 +219,29 @@ class Study {
     return load_experiment(std::filesystem::path(options_.experiment), overrides);
   }
 
+  /// A variant may leave nothing to move, or nowhere to go: that is no mistake in the experiment.
+  nlohmann::json study_if_possible(const Variant& variant) {
+    const auto impossible = [&](const std::string& code, const char* what) {
+      nlohmann::json json = {{"name", name_of(variant)},
+                             {"set", nlohmann::json::object()},
+                             {"verdict", "impossible"},
+                             {"error", {{"code", code}, {"message", what}}}};
+      for (const auto& [key, value] : variant) json["set"][key] = value;
+      return json;
+    };
+    try {
+      return study(variant);
+    } catch (const InputError& error) {
+      static const std::set<std::string> kOfTheValue = {"singular_mass", "unreachable",  "singular_path",
+                                                        "crosses_branch", "over_limit", "angle_jumps"};
+      if (!kOfTheValue.contains(error.code)) throw;
+      return impossible(error.code, error.what());
+    } catch (const RunFault& fault) {
+      if (fault.code != "singular") throw;
+      return impossible(fault.code, fault.what());
+    }
+  }
+
   nlohmann::json study(const Variant& variant) {
     const Experiment experiment = load(variant);
     const Plan plan = make_plan(experiment);
@@ -204,19 +249,28 @@ class Study {
     say_complaint(instants.complaint);
     const Limits start = limits_of(instants.loops.front(), instants.sampling);
     const PathLimits path = path_limits(instants);
+    const auto doubt = step_doubt(experiment, plan);
     maps_.push_back(stability_map(instants, name_of(variant)));
     const StabilityMap& map = maps_.back();
     nlohmann::json json = {
         {"name", name_of(variant)},
         {"set", nlohmann::json::object()},
-        {"verdict", path.radius > 1 ? "unstable" : "stable"},
+        {"verdict", verdict_of(path, doubt)},
+        {"warnings", nlohmann::json::array()},
         {"at_start", as_json(start)},
         {"along_path", as_json(path)},
         {"map", {{"tick", map.ticks}, {"delay", map.delays}, {"spectral_radius", map.radius}}},
         {"confirmed", nlohmann::json::object()}};
     for (const auto& [key, value] : variant) json["set"][key] = value;
+    if (doubt) json["warnings"].push_back(doubt->text);
     if (!options_.no_confirmation)
       json["confirmed"] = confirmation(experiment, plan, start, instants.sampling);
+    if (contradicts(json["confirmed"])) {
+      json["warnings"].push_back(
+          "a disturbance grows in the simulation where the linearised loop is stable, or decays where it isn't: the "
+          "plant's steps don't follow the plant");
+      if (json["verdict"] != "unstable") json["verdict"] = "undecided";
+    }
     return json;
   }
 
@@ -242,7 +296,8 @@ int run(const StabilityLine& options) {
     for (const auto& one : result["cases"]) print(one);
     if (!options.picture.empty()) fmt::print("\ndrawn in {}\n", options.picture);
   }
-  return result["cases"][0]["verdict"] == "stable" ? kHeld : kMissed;
+  const auto& verdict = result["cases"][0]["verdict"];
+  return verdict == "stable" || verdict == "marginal" ? kHeld : kMissed;
 }
 
 }  // namespace
@@ -274,7 +329,8 @@ void add_stability_command(CLI::App& app, int& status) {
       "where\n"
       "an eigenvalue leaves the unit circle, each confirmed by simulating a disturbance on both sides of "
       "it.\n"
-      "Exit status 0 where the experiment as it stands is stable all along, 1 where it isn't.\n"
+      "Marginal is what neither grows nor decays, to rounding; unstable also what grows by the plant's own steps.\n"
+      "Exit status 0 where the experiment as it stands is stable or marginal all along, 1 where it isn't.\n"
       "Examples:\n"
       "  mixloop stability experiments/paper.yaml --picture stability.svg\n"
       "  mixloop stability experiments/paper.yaml --vary parameters.payload='0 kg,2 kg,5 kg,10 kg'");

@@ -3,16 +3,22 @@
 
 #include <fmt/format.h>
 
+#include "loop/review.hpp"
 #include "stability/warning.hpp"
 
 namespace mixloop {
 
 std::vector<std::string> warnings_of(const Experiment& experiment, const Plan& plan, bool quiet) {
   std::vector<std::string> warnings = experiment.scene->warnings;
+  if (auto doubt = step_doubt(experiment, plan)) warnings.push_back(std::move(doubt->text));
   for (auto& warning : stability_warnings(experiment, plan)) warnings.push_back(std::move(warning));
+  say(warnings, quiet);
+  return warnings;
+}
+
+void say(const std::vector<std::string>& warnings, bool quiet) {
   if (!quiet)
     for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-  return warnings;
 }
 
 }  // namespace mixloop

@@ -12,4 +12,7 @@ namespace mixloop {
 /// stability. Said on stderr unless `quiet`; results keep it as `warnings`.
 std::vector<std::string> warnings_of(const Experiment& experiment, const Plan& plan, bool quiet);
 
+/// Says them on stderr unless `quiet`.
+void say(const std::vector<std::string>& warnings, bool quiet);
+
 }  // namespace mixloop

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
+#include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "notation/value.hpp"
 #include "plant/hardware.hpp"
@@ -52,6 +55,28 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
         read_values(limit, experiment.scene->motors(), kVelocity, "the velocity limit");
   if (const NodePtr limit = entry.find("torque"))
     experiment.limits.torque = read_values(limit, experiment.scene->motors(), kTorque, "the torque limit");
+}
+
+std::string described(std::span<const Scene::Independent> coordinates) {
+  std::string text;
+  for (const auto& coordinate : coordinates)
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", coordinate.name, coordinate.linear ? " (linear)" : "",
+                        coordinate.driven ? "" : " (free)");
+  return text;
+}
+
+/// A controller's torques go to the plant's motors one by one, and its measurements come so: by place, not by name.
+void require_same_coordinates(const Scene& controllers, const Scene& plants, const Place& place) {
+  const auto same = [](const Scene::Independent& a, const Scene::Independent& b) {
+    return a.name == b.name && a.linear == b.linear && a.driven == b.driven;
+  };
+  if (std::ranges::equal(controllers.independent, plants.independent, same)) return;
+  const bool as_many =
+      controllers.n() == plants.n() && controllers.n_u() == plants.n_u();
+  throw InputError(as_many ? "other_motors" : "wrong_size", place,
+                   fmt::format("the controller's scene has the motors {}, the plant's {}; expected the same names, "
+                               "kinds and order",
+                               described(controllers.independent), described(plants.independent)));
 }
 
 void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
@@ -106,14 +131,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   experiment.controller_scene =
       other_scene ? std::make_shared<const Scene>(load_scene(scene_document_at(*other_scene, base, {})))
                   : experiment.scene;
-  const auto require_as_many = [&](const char* what, int controllers, int plants) {
-    if (controllers != plants)
-      throw InputError(
-          "wrong_size", other_scene->place,
-          fmt::format("the controller's scene has {} {}, the plant's {}", controllers, what, plants));
-  };
-  require_as_many("motors", experiment.controller_scene->n_u(), scene.n_u());
-  require_as_many("independent coordinates", experiment.controller_scene->n(), scene.n());
+  if (other_scene) require_same_coordinates(*experiment.controller_scene, scene, other_scene->place);
 
   const NodePtr plant = root.find("plant");
   if (plant) experiment.plant = read_plant_settings(plant, scene, experiment.rate_hz);
@@ -131,6 +149,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   experiment.controller_parameters = parameter_values(
       *experiment.controller_scene, parameters_in(controller),
       other_scene ? experiment.controller_scene->default_parameters() : experiment.parameters);
+  require_inertia(experiment.scene, experiment.plant_parameters);
   read_faults_and_seed(root, experiment);
   if (const NodePtr limits = root.find("limits")) read_limits(limits, experiment);
   if (const NodePtr expect = root.find("expect")) experiment.expect = read_expectation(expect, scene);
@@ -168,9 +187,11 @@ GuardedController make_guarded_controller(const Experiment& experiment) {
 
 Experiment with_integrator_settled(Experiment experiment, const Plan& plan) {
   if (!experiment.plant.automatic || experiment.integrator_choice) return experiment;
-  const IntegratorChoice choice =
-      choose_integrator(experiment.scene, experiment.plant_parameters, plan, experiment.rate_hz,
-                        experiment.plant.local_error, !experiment.plant.actuators.any());
+  PlantProbe probe(experiment.scene, experiment.plant_parameters, experiment.plant.actuators,
+                   Evaluation::machine_code);
+  const IntegratorChoice choice = choose_integrator(
+      probe, plan,
+      {experiment.rate_hz, experiment.plant.local_error, !experiment.plant.actuators.any()});
   experiment.plant.integrator = choice.method;
   experiment.plant.substeps = choice.substeps;
   experiment.plant.local_error = 0;  // the steps are settled

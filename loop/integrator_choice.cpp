@@ -6,185 +6,118 @@
 #include <algorithm>
 #include <optional>
 
-#include "dynamics/equations.hpp"
-#include "dynamics/procedure/decompositions.hpp"
 #include "dynamics/program/trace.hpp"
-#include "integrators/integrator.hpp"
+#include "loop/step_fitness.hpp"
 #include "notation/errors.hpp"
 
 namespace mixloop {
 namespace {
 
-constexpr std::int64_t kMostSamples = 48;
+constexpr std::int64_t kMostPoses = 48;
 constexpr int kMostSubsteps = 256;
+constexpr double kOwnMotion = 1e-3;  // of its amplitude: what of the plant's own motion may be lost within a run
 
-/// A tick of the path: where it starts, what the motors hold over it, and where it ends.
-struct Sample {
-  double t = 0;
-  Vector start, tau, end;
-  AccelerationJacobian<double> jacobian;
-};
-
-class Chooser {
+/// What methods add in a tick from some poses, beside DOP853 under error control.
+class LocalErrors {
  public:
-  Chooser(const std::shared_ptr<const Scene>& scene, const std::vector<double>& parameters, double rate_hz,
-          double local_error)
-      : dynamics_(
-            equations_of(scene, Evaluation::machine_code,
-                         {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::linearisation}),
-            parameters),
-        n_(scene->n()),
-        n_u_(scene->n_u()),
-        tick_(1 / rate_hz),
-        local_error_(local_error),
-        jacobian_cost_(cost_of(scene, Purpose::linearisation) / cost_of(scene, Purpose::forward_dynamics)) {}
-
-  void look(const Plan& plan) {
-    const std::int64_t count = std::min(plan.ticks(), kMostSamples);
-    const double finest = std::max(1e-15, local_error_ * 1e-3);
-    Integrator reference({Method::dop853, 1, finest}, n_, 2 * n_);
-    for (std::int64_t i = 0; i < count; ++i) {
-      const std::int64_t k = i * plan.ticks() / count;
-      const PsiMotion at = whole_motion(dynamics_.scene(), plan.at(k));
-      Sample sample{static_cast<double>(k) * tick_, Vector(2 * n_), Vector(n_), {}, {}};
-      sample.start << at.psi, at.psid;
-      dynamics_.evaluate(Purpose::inverse_dynamics,
-                         {span_of(at.psi), span_of(at.psid), span_of(at.psidd), sample.t},
-                         span_of(sample.tau));
-      sample.tau.conservativeResize(n_u_);
-      sample.jacobian = {Matrix(n_, n_), Matrix(n_, n_), Vector::Zero(n_)};
-      linearise(sample, sample.t, sample.start, sample.jacobian);
-      sample.end = advanced(reference, sample);
-      samples_.push_back(std::move(sample));
-    }
+  LocalErrors(PlantProbe& probe, const std::vector<PlantPose>& poses, const ChoiceTask& task)
+      : probe_(probe), poses_(poses), tick_(1 / task.rate_hz), asked_(task.local_error) {
+    const double finest = std::max(1e-15, asked_ * 1e-3);
+    Integrator reference({Method::dop853, 1, finest}, n(), 2 * n());
+    for (const PlantPose& pose : poses_) ends_.push_back(probe_.advanced(reference, pose, tick_));
   }
 
-  std::optional<IntegratorChoice> cheapest(bool jacobian) {
-    std::optional<IntegratorChoice> best;
-    double least = 0;
-    for (const MethodFacts& method : all_methods()) {
-      if (method.method == Method::gauss8) continue;  // iterates: no fixed cost
-      if (method.jacobian && !jacobian) continue;
-      for (int substeps = 1; substeps <= kMostSubsteps; substeps *= 2) {
-        const double price = cost(method, substeps);
-        if (best && price > least) break;
-        const double error = largest_error(method.method, substeps);
-        if (!(error <= local_error_ / 2) || !stable(method.method, substeps)) continue;
-        best = IntegratorChoice{method.method, substeps, local_error_, error, {}};
-        least = price;
-        break;
-      }
-    }
-    if (best) best->why = reason(*best, least);
-    return best;
-  }
-
- private:
-  static double cost_of(const std::shared_ptr<const Scene>& scene, Purpose purpose) {
-    return estimated_time(trace(scene, purpose).program.run_operations());
-  }
-
-  /// In evaluations of the forward dynamics a tick.
-  double cost(const MethodFacts& method, int substeps) const {
-    return substeps * (method.evaluations + (method.jacobian ? jacobian_cost_ : 0)) +
-           (method.method == Method::leapfrog ? 1 : 0);
-  }
-
-  void linearise(const Sample& sample, double t, const Vector& x, AccelerationJacobian<double>& jacobian) {
-    Vector out(n_ * (2 * n_ + n_u_));
-    dynamics_.evaluate(Purpose::linearisation, {psi(x), psid(x), span_of(sample.tau), t}, span_of(out));
-    jacobian.by_q = Eigen::Map<const Matrix>(out.data(), n_, n_);
-    jacobian.by_v = Eigen::Map<const Matrix>(out.data() + n_ * n_, n_, n_);
-  }
-
-  Vector advanced(Integrator<>& integrator, const Sample& sample) {
-    Vector x = sample.start;
-    integrator.advance(
-        x, tick_,
-        [&](int, int, double after, const Vector& at, Vector& dx) {
-          dx.head(n_) = at.tail(n_);
-          dynamics_.evaluate(Purpose::forward_dynamics,
-                             {psi(at), psid(at), span_of(sample.tau), sample.t + after},
-                             {dx.data() + n_, static_cast<std::size_t>(n_)});
-        },
-        [&](double after, const Vector& at, auto& jacobian) {
-          linearise(sample, sample.t + after, at, jacobian);
-        });
-    return x;
-  }
-
-  double largest_error(Method method, int substeps) {
-    Integrator integrator({method, substeps, 0}, n_, 2 * n_);
-    double largest = 0;
-    for (const Sample& sample : samples_) {
-      const double error = error_size<double>(advanced(integrator, sample) - sample.end, sample.start, n_);
-      if (!(error <= largest)) largest = error;
-      if (!(largest <= local_error_)) break;
+  /// The largest; of those beyond what is asked the first.
+  LocalError largest(const IntegratorSettings& steps) {
+    Integrator integrator(steps, n(), 2 * n());
+    LocalError largest;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      const Vector end = probe_.advanced(integrator, poses_[i], tick_);
+      const double error = error_size<double>(end - ends_[i], poses_[i].x, n());
+      if (!(error <= largest.error)) largest = {error, poses_[i].t};
+      if (!(largest.error <= asked_)) break;
     }
     return largest;
   }
 
-  /// Whether the method's map of a tick, on the linearised plant, grows no faster than the plant itself.
-  bool stable(Method method, int substeps) {
-    for (const Sample& sample : samples_) {
-      Matrix J = Matrix::Zero(2 * n_, 2 * n_);
-      J.topRightCorner(n_, n_).setIdentity();
-      J.bottomLeftCorner(n_, n_) = sample.jacobian.by_q;
-      J.bottomRightCorner(n_, n_) = sample.jacobian.by_v;
-      const double growth = std::exp(std::max(0.0, eigenvalues(J).real().maxCoeff()) * tick_);
-      if (!(eigenvalues(map_of_tick(method, substeps, J, sample)).cwiseAbs().maxCoeff() <=
-            growth * (1 + 1e-4)))
-        return false;
-    }
-    return true;
-  }
+ private:
+  Eigen::Index n() const { return probe_.scene().n(); }
 
-  Matrix map_of_tick(Method method, int substeps, const Matrix& J, const Sample& sample) const {
-    Integrator integrator({method, substeps, 0}, n_, 2 * n_);
-    Matrix map = Matrix::Identity(2 * n_, 2 * n_);
-    for (int column = 0; column < 2 * n_; ++column) {
-      Vector x = map.col(column);
-      integrator.advance(
-          x, tick_, [&](int, int, double, const Vector& at, Vector& dx) { dx = J * at; },
-          [&](double, const Vector&, auto& jacobian) { jacobian = sample.jacobian; });
-      map.col(column) = x;
-    }
-    return map;
-  }
-
-  std::string reason(const IntegratorChoice& choice, double price) const {
-    return fmt::format(
-        "{}, {} step{} a tick: the cheapest ({:.3g} evaluations a tick) that keeps {:.1g} a tick; adds "
-        "{:.1e} at most "
-        "at {} ticks along the path",
-        facts(choice.method).name, choice.substeps, choice.substeps == 1 ? "" : "s", price, choice.asked,
-        choice.estimate, samples_.size());
-  }
-
-  std::span<const double> psi(const Vector& x) const { return {x.data(), static_cast<std::size_t>(n_)}; }
-  std::span<const double> psid(const Vector& x) const {
-    return {x.data() + n_, static_cast<std::size_t>(n_)};
-  }
-
-  Equations::Workspace dynamics_;
-  int n_, n_u_;
-  double tick_, local_error_, jacobian_cost_;
-  std::vector<Sample> samples_;
+  PlantProbe& probe_;
+  const std::vector<PlantPose>& poses_;
+  double tick_, asked_;
+  std::vector<Vector> ends_;
 };
+
+double operations_of(const std::shared_ptr<const Scene>& scene, Purpose purpose) {
+  return estimated_time(trace(scene, purpose).program.run_operations());
+}
+
+/// Of a Jacobian, in evaluations of the forward dynamics.
+double jacobian_cost(const std::shared_ptr<const Scene>& scene) {
+  return operations_of(scene, Purpose::linearisation) / operations_of(scene, Purpose::forward_dynamics);
+}
+
+std::string reason(const IntegratorChoice& choice, double price, std::size_t poses) {
+  return fmt::format(
+      "{}, {} step{} a tick: the cheapest ({:.3g} evaluations a tick) that keeps {:.1g} a tick; adds "
+      "{:.1e} at most "
+      "at {} ticks along the path",
+      facts(choice.method).name, choice.substeps, choice.substeps == 1 ? "" : "s", price, choice.asked,
+      choice.estimate, poses);
+}
 
 }  // namespace
 
-IntegratorChoice choose_integrator(const std::shared_ptr<const Scene>& scene,
-                                   const std::vector<double>& parameters, const Plan& plan, double rate_hz,
-                                   double local_error, bool jacobian) {
-  Chooser chooser(scene, parameters, rate_hz, local_error);
-  chooser.look(plan);
-  if (const auto choice = chooser.cheapest(jacobian)) return *choice;
-  throw InputError(
-      "out_of_reach", {},
-      fmt::format("no integrator keeps a local error of {:g} with up to {} steps a tick; expected a larger "
-                  "plant.local_error or rate",
-                  local_error, kMostSubsteps));
+std::vector<std::int64_t> ticks_to_look_at(std::int64_t ticks) {
+  const std::int64_t count = std::min(ticks, kMostPoses);
+  std::vector<std::int64_t> chosen;
+  for (std::int64_t i = 0; i < count; ++i) chosen.push_back(i * ticks / count);
+  return chosen;
+}
+
+std::vector<PlantPose> poses_on_plan(PlantProbe& probe, const Plan& plan, double rate_hz) {
+  std::vector<PlantPose> poses;
+  for (const std::int64_t k : ticks_to_look_at(plan.ticks())) poses.push_back(probe.on_plan(plan, k, rate_hz));
+  return poses;
+}
+
+LocalError largest_local_error(PlantProbe& probe, const std::vector<PlantPose>& poses,
+                               const IntegratorSettings& steps, const ChoiceTask& task) {
+  return LocalErrors(probe, poses, task).largest(steps);
+}
+
+IntegratorChoice choose_integrator(PlantProbe& probe, const Plan& plan, const ChoiceTask& task) {
+  const double of_jacobian = jacobian_cost(probe.shared_scene());
+  const std::vector<PlantPose> poses = poses_on_plan(probe, plan, task.rate_hz);
+  const std::vector<LinearPlant> plants = linearised(probe, poses);
+  const StepTask steps_task{1 / task.rate_hz, plan.ticks(), task.ideal_drives};
+  const MotionTolerance own_motion{.run = kOwnMotion, .tick = task.local_error / 4};
+  LocalErrors errors(probe, poses, task);
+  std::optional<IntegratorChoice> best;
+  double least = 0;
+  for (const MethodFacts& method : all_methods()) {
+    if (method.method == Method::gauss8) continue;  // iterates: no fixed cost
+    if (method.jacobian && !task.ideal_drives) continue;
+    for (int substeps = 1; substeps <= kMostSubsteps; substeps *= 2) {
+      const IntegratorSettings steps{method.method, substeps, 0};
+      const double price = cost_of(steps, of_jacobian);
+      if (best && price > least) break;
+      const double error = errors.largest(steps).error;
+      if (!(error <= task.local_error / 2) || misfit(steps, steps_task, plants, own_motion)) continue;
+      best = IntegratorChoice{method.method, substeps, task.local_error, error, {}};
+      least = price;
+      break;
+    }
+  }
+  if (!best)
+    throw InputError(
+        "out_of_reach", {},
+        fmt::format("no integrator keeps a local error of {:g} with up to {} steps a tick; expected a larger "
+                    "plant.local_error or rate",
+                    task.local_error, kMostSubsteps));
+  best->why = reason(*best, least, poses.size());
+  return *best;
 }
 
 }  // namespace mixloop

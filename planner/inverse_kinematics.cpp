@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 namespace mixloop {
 namespace {
@@ -13,7 +14,11 @@ constexpr int kMostIterations = 100;
 constexpr int kStartsFromHome = 400;
 constexpr double kFarthestStart = 4;  // in motor scales: about a half turn of a joint and more
 
-/// Of the transforms from the ground to the end effector, and the point in its frame.
+constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
+constexpr double kNothing = 1e3 * kRoundOff;  // of what a sum consists of: a sum of nothing
+constexpr double kLinear = 1e-3;              // of a step: what it leaves where the map hardly bends over it
+
+/// Of the transforms from the ground to the end effector, and the point in its frame; 0 where all of it varies.
 double length_of_chain(const Model<double>& model) {
   double length = model.end_effector_point.norm();
   for (int frame = model.scene->end_effector.frame; frame != 0;) {
@@ -21,7 +26,7 @@ double length_of_chain(const Model<double>& model) {
     length += std::abs(link.a) + std::abs(link.s);
     frame = link.parent;
   }
-  return length > 0 ? length : 1;
+  return length;
 }
 
 /// The first n of three.
@@ -31,13 +36,18 @@ Vector first_of(const Eigen::Vector3d& x, int n) {
   return first;
 }
 
-/// Marquardt's step (J^T J + damping diag(J^T J)) x = J^T error (SIAM J. 11, 1963); undamped, Newton's.
-Eigen::Vector3d damped_step(const Eigen::Matrix3d& J, const Eigen::Vector3d& error, double damping) {
+/// Marquardt's step (J^T J + damping diag(J^T J)) x = J^T error (SIAM J. 11, 1963), worked out in units of
+/// `scale`; undamped, Newton's. Of three equations the first `scale.size()` count.
+Eigen::Vector3d damped_step(const Eigen::Matrix3d& J, const Eigen::Vector3d& error, double damping,
+                            const Vector& scale) {
   if (damping == 0) return J.partialPivLu().solve(error);
-  Eigen::Matrix3d A = J.transpose() * J;
-  const double least = 1e-12 * A.diagonal().maxCoeff();
+  Eigen::Vector3d unit = Eigen::Vector3d::Ones();
+  unit.head(scale.size()) = scale;
+  const Eigen::Matrix3d scaled = J * unit.asDiagonal();
+  Eigen::Matrix3d A = scaled.transpose() * scaled;
+  const double least = 1e-12 * A.diagonal().head(scale.size()).maxCoeff();
   for (int i = 0; i < 3; ++i) A(i, i) += damping * std::max(A(i, i), least);
-  return A.partialPivLu().solve(J.transpose() * error);
+  return unit.cwiseProduct(A.partialPivLu().solve(scaled.transpose() * error));
 }
 
 /// The angle that differs from `angle` by whole turns and is nearest to `other`.
@@ -62,10 +72,40 @@ InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
                                  "as many motors as axes",
                                  model.scene->name, n_u_, axes));
   if (method == Method::closed_form_if_known) arm_ = find_three_axis_arm(model);
+  const Vector moved = moved_at_home();
+  if (!(scale_ > 0)) scale_ = moved.maxCoeff() > 0 ? moved.maxCoeff() : 1;
+  motor_scale_ = Vector(n_u_);
+  for (int i = 0; i < n_u_; ++i) {
+    const bool linear = model.scene->motors()[static_cast<std::size_t>(i)].linear;
+    motor_scale_[i] = moved[i] > 0 ? scale_ / moved[i] : (linear ? scale_ : 1);
+  }
+}
+
+// A column of the Jacobian is nothing where it is the rounding of the joints' shares that it is summed up from:
+// so however fine a drive is, and whatever its units.
+Vector InverseKinematics::moved_at_home() {
+  const Scene& scene = *model_.scene;
   const Eigen::Matrix3d J = jacobian_of(forward(home_, zero_, zero_, 0));
-  motor_scale_ = Vector::Ones(n_u_);
-  for (int i = 0; i < n_u_; ++i)
-    if (const double column = J.col(i).norm(); column > 1e-6 * J.norm()) motor_scale_[i] = scale_ / column;
+  const PsiMotion home = with_free_at_home(scene, {home_, {}, {}});
+  coordinates<double>(model_, span_of(home.psi), 0.0, ws_);
+  Vector moved(n_u_), shares = Vector::Zero(n_u_);
+  for (int frame = scene.end_effector.frame; frame != 0;) {
+    const auto& link = model_.links[static_cast<std::size_t>(frame - 1)];
+    frame = link.parent;
+    if (link.coordinate < 0) continue;
+    const double arm = std::abs(link.scale) * (link.prismatic ? 1 : scale_);
+    shares += arm * ws_.C.row(link.coordinate).head(n_u_).cwiseAbs().transpose();
+  }
+  for (int i = 0; i < n_u_; ++i) {
+    moved[i] = J.col(i).head(n_u_).norm();
+    if (!(moved[i] > kNothing * shares[i])) moved[i] = 0;
+  }
+  return moved;
+}
+
+double InverseKinematics::resolution(const Eigen::Vector3d& point, const Eigen::Matrix3d& J,
+                                     const Vector& psi) const {
+  return 4 * kRoundOff * (on_axes(point).norm() + J.leftCols(n_u_).cwiseAbs().colwise().sum().dot(psi.cwiseAbs()));
 }
 
 IkOutcome InverseKinematics::closed_form(const Eigen::Vector3d& point, Vector& psi) const {
@@ -118,25 +158,30 @@ double InverseKinematics::miss(const Eigen::Vector3d& point, double t, const Vec
 
 IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Vector& psi) {
   if (arm_) return closed_form(point, psi);
-  double damping = 0;
+  double damping = 0, longest = 0.5;
   const EndEffectorState<double>* state = &forward(psi, zero_, zero_, t);
   Eigen::Vector3d error = on_axes(point - state->position);
   Eigen::Matrix3d J = jacobian_of(*state);
   for (int i = 0; i < kMostIterations; ++i) {
-    const Vector step = first_of(damped_step(J, error, damping), n_u_);
+    const Vector step = first_of(damped_step(J, error, damping, motor_scale_), n_u_);
     const Vector trial = psi + step;
     // Longer steps would wind the motors up.
     const double length = step.cwiseQuotient(motor_scale_).norm();
-    const bool sound = step.allFinite() && length <= 0.5;
+    const bool sound = step.allFinite() && length <= longest;
     const double distance = error.norm();
+    const double finest = resolution(point, J, psi);
     // What Newton's method still has to go is quadratically small in the step (next to a singular pose a
     // small distance may take a long one): this step ends it.
-    if (sound && damping == 0 && distance <= 1e-10 * scale_ && length <= 1e-8) {
+    if (sound && damping == 0 && distance <= std::max(1e-10 * scale_, finest) &&
+        length <= 1e-8 + kRoundOff * psi.cwiseQuotient(motor_scale_).norm()) {
       psi = trial;
       return IkOutcome::solved;
     }
     if (sound) state = &forward(trial, zero_, zero_, t);
     if (const Eigen::Vector3d left = on_axes(point - state->position); sound && left.norm() < distance) {
+      // A fine drive or a long slide has far to go, and where the map hardly bends nothing winds up.
+      const Eigen::Vector3d foreseen = error - J.leftCols(n_u_) * step;
+      if (damping != 0 && (left - foreseen).norm() <= kLinear * (error - left).norm()) longest *= 4;
       psi = trial;
       error = left;
       J = jacobian_of(*state);
@@ -146,7 +191,8 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
       if (damping > 1e12) break;
     }
   }
-  return error.norm() <= 1e-12 * scale_ ? IkOutcome::solved : IkOutcome::out_of_reach;
+  return error.norm() <= std::max(1e-12 * scale_, resolution(point, J, psi)) ? IkOutcome::solved
+                                                                             : IkOutcome::out_of_reach;
 }
 
 IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, double t, Vector& psi,

@@ -33,10 +33,11 @@ class InverseKinematics {
 
   /// The arm whose closed form is used, or nothing.
   const std::optional<ThreeAxisArm>& arm() const { return arm_; }
-  /// A length typical of the mechanism, m.
+  /// A length typical of the mechanism, m: of the transforms to the end effector, or where all of them vary, of
+  /// its move by a motor's unit.
   double scale() const { return scale_; }
   /// Of each motor, the move that takes the end effector, at home, about as far as that (where it takes it
-  /// nowhere, 1 rad or 1 m): the measure of what is near in the motors' space.
+  /// nowhere, 1 rad or that length): the measure of what is near in the motors' space.
   const Vector& motor_scale() const { return motor_scale_; }
 
   /// The psi that bring the end effector to `point` (of it, the scene's axes count) at time t, to round-off.
@@ -62,6 +63,10 @@ class InverseKinematics {
  private:
   IkOutcome closed_form(const Eigen::Vector3d& point, Vector& psi) const;
   IkOutcome closed_form_rates(const PathPoint& point, Vector& psid, Vector& psidd) const;
+  /// How far a unit of each motor takes the end effector at home, m; 0 where that is nothing but rounding.
+  Vector moved_at_home();
+  /// What the rounding of a point and of the motors' angles leaves of the end effector's place, m.
+  double resolution(const Eigen::Vector3d& point, const Eigen::Matrix3d& J, const Vector& psi) const;
   // With fewer than three motors the systems of three equations are filled up by x_i = 0.
   Eigen::Vector3d on_axes(const Eigen::Vector3d& x) const;
   Eigen::Matrix3d jacobian_of(const EndEffectorState<double>& state) const;

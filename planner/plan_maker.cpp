@@ -104,11 +104,14 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   if (const IkOutcome outcome = follower.start(on_branch); outcome != IkOutcome::solved)
     refusal_.no_start(outcome, follower.now().motors.psi, t_start);
   measures_.adopt_scale(follower.now().motors.psi, t_start);
+  AngleWatch angles(*model_.scene, model_.parameters);
   for (std::int64_t step = 0; step <= steps; ++step) {
     const auto at = static_cast<double>(step);
     if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::solved)
       refusal_.no_way(outcome, follower, at);
     const double t = follower.time(at);
+    if (const std::string jumped = jump(angles, follower.now().motors.psi, t); !jumped.empty())
+      refusal_.jump(at, jumped);
     write(follower.now(), t, row(plan, step * width_));
     measures_.evaluate(follower.now().motors.psi, t,
                        samples_.data() + static_cast<std::size_t>(step) * measures_.count());
@@ -116,6 +119,12 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   }
   check_singularities(plan, delay);
   check_limits(plan, delay);
+}
+
+/// The angle that jumped since the last look.
+std::string PlanMaker::jump(AngleWatch& angles, const Vector& motors, double t) const {
+  if (!angles.needed()) return {};
+  return angles.look(span_of(with_free_at_home(*model_.scene, {motors, {}, {}}).psi), t);
 }
 
 // The other rows of a step.
@@ -157,7 +166,7 @@ void PlanMaker::check_limits(Plan& plan, std::int64_t delay) {
 
 std::int64_t PlanMaker::approach_ticks(Plan& plan, const Vector& move) {
   const Reference start = reference_in(row(plan, 0), plan.n_u_);
-  if (move.cwiseAbs().maxCoeff() <= 1e-12 * std::max(1.0, start.psi.cwiseAbs().maxCoeff())) return 0;
+  if ((move.cwiseAbs() - 1e-12 * ik_.motor_scale().cwiseMax(start.psi.cwiseAbs())).maxCoeff() <= 0) return 0;
   if (path_.approach) return ticks_of(*path_.approach, settings_.rate_hz, path_.place, "the approach");
   const Vector fastest = settings_.limits.velocity.empty()
                              ? fastest_on_path(plan)
@@ -196,6 +205,7 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   const std::size_t named = measures_.count() - 1;
   std::vector<double> values(measures_.count()), samples;
   LimitCheck check(model_, settings_.limits);
+  AngleWatch angles(*model_.scene, model_.parameters);
   const auto fill = [&](double step, std::int64_t index) {
     const double t = step / rate;
     Follower::Motion motion{0, {}, at(step)};
@@ -209,6 +219,8 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
     const Reference now = reference_in(row(plan, step * width_), plan.n_u_);
     const double t = static_cast<double>(step) / rate;
     check.look(step, now, t);
+    if (const std::string jumped = jump(angles, now.psi, t); !jumped.empty())
+      refusal_.jump_before(static_cast<double>(step), jumped, move.duration());
     measures_.evaluate(now.psi, t, values.data());
     samples.insert(samples.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(named));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "dynamics/scene/continuous_angles.hpp"
 #include "planner/plan.hpp"
 #include "planner/refusal.hpp"
 
@@ -19,6 +20,7 @@ class PlanMaker {
   std::span<double> row(Plan& plan, std::int64_t index) const;
   void write(const Follower::Motion& motion, double t, std::span<double> row);
   void follow(Plan& plan, std::int64_t delay);
+  std::string jump(AngleWatch& angles, const Vector& motors, double t) const;
   void follow_within(Plan& plan, std::int64_t step, Follower& follower);
   void check_singularities(Plan& plan, std::int64_t delay);
   void check_limits(Plan& plan, std::int64_t delay);

@@ -19,7 +19,10 @@ class Refusal {
   [[noreturn]] void no_way(IkOutcome outcome, Follower& follower, double step) const;
   [[noreturn]] void passage(const Passage& passage) const;
   [[noreturn]] void excess(const Excess& excess) const;
+  /// A coordinate whose value counts jumps by a turn.
+  [[noreturn]] void jump(double step, const std::string& coordinate) const;
   /// The same on the move to the start.
+  [[noreturn]] void jump_before(double step, const std::string& coordinate, double duration) const;
   [[noreturn]] void passage_before(const Passage& passage, double duration) const;
   [[noreturn]] void excess_before(const Excess& excess, double duration) const;
 
@@ -28,6 +31,7 @@ class Refusal {
   double out_of_reach(double step, double t, Vector nearby) const;
   std::string reach_text(double step, double t, Vector nearby) const;
   std::string text(const Passage& passage) const;
+  static std::string jump_text(const std::string& coordinate);
   std::string where(double step) const;
   std::string where_before(double step, double duration) const;
 

@@ -10,8 +10,9 @@
 namespace mixloop {
 namespace {
 
-/// A value at home that is this small beside that at the path's start, or in SI, is a zero.
+/// A value that is this small beside those round about is a zero.
 constexpr double kZero = 1e-9;
+constexpr double kRoundAbout = 0.1;  // in motor scales
 
 /// det A / |adj A| = 1 / |A^-1| in Frobenius norms, for A of 1 to 3 rows; 0 where A has no inverse.
 double signed_distance_to_singular(const Eigen::Matrix3d& A, int n) {
@@ -37,6 +38,23 @@ SingularityMeasures::SingularityMeasures(const Model<double>& model, const Vecto
       buffer_(scale_.size()) {
   const Vector home = Eigen::Map<const Vector>(model.scene->home.data(), n_u_);
   evaluate_raw(home, 0, scale_.data());
+  const std::vector<double> about = largest_about(home);
+  for (std::size_t i = 0; i < count(); ++i)
+    if (!(std::abs(scale_[i]) > kZero * about[i])) scale_[i] = 0;
+}
+
+// A named measure may have any unit: what is small is told by its values at poses about this one.
+std::vector<double> SingularityMeasures::largest_about(const Vector& psi) {
+  std::vector<double> largest(count(), 0.0);
+  for (int motor = 0; motor < n_u_; ++motor)
+    for (const double away : {-kRoundAbout, kRoundAbout}) {
+      Vector near = psi;
+      near[motor] += away * motor_scale_[motor];
+      evaluate_raw(near, 0, buffer_.data());
+      for (std::size_t i = 0; i < count(); ++i)
+        if (std::isfinite(buffer_[i])) largest[i] = std::max(largest[i], std::abs(buffer_[i]));
+    }
+  return largest;
 }
 
 std::string SingularityMeasures::name(std::size_t measure) const {
@@ -85,14 +103,14 @@ void SingularityMeasures::evaluate(const Vector& psi, double t, double* values) 
 bool SingularityMeasures::on_home_branch(const Vector& psi, double t) {
   evaluate_raw(psi, t, buffer_.data());
   for (std::size_t i = 0; i < count(); ++i)
-    if (std::abs(scale_[i]) > kZero && !(buffer_[i] * scale_[i] > 0)) return false;
+    if (scale_[i] != 0 && !(buffer_[i] * scale_[i] > 0)) return false;
   return true;
 }
 
 void SingularityMeasures::adopt_scale(const Vector& psi, double t) {
   evaluate_raw(psi, t, buffer_.data());
   for (std::size_t i = 0; i < count(); ++i)
-    if (std::abs(scale_[i]) <= kZero * std::max(1.0, std::abs(buffer_[i]))) scale_[i] = buffer_[i];
+    if (scale_[i] == 0) scale_[i] = buffer_[i];
 }
 
 namespace {

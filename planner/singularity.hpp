@@ -32,6 +32,7 @@ class SingularityMeasures {
 
  private:
   void evaluate_raw(const Vector& motors, double t, double* values);
+  std::vector<double> largest_about(const Vector& psi);
   Eigen::Matrix3d scaled_jacobian();
 
   const Model<double>& model_;

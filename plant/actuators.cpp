@@ -111,6 +111,25 @@ void Actuators::torque(const State& state, double s, std::span<const double> psi
   }
 }
 
+void Actuators::add_friction(std::span<const double> psid, std::span<double> tau) const {
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const Drive& drive = drives_[i];
+    tau[i] -= drive.viscous * psid[i];
+    if (drive.coulomb > 0) tau[i] -= drive.coulomb * std::tanh(psid[i] / drive.smooth);
+  }
+}
+
+void Actuators::friction_slopes(std::span<const double> psid, std::span<double> slopes) const {
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const Drive& drive = drives_[i];
+    slopes[i] = -drive.viscous;
+    if (drive.coulomb > 0) {
+      const double share = std::tanh(psid[i] / drive.smooth);
+      slopes[i] -= drive.coulomb / drive.smooth * (1 - share) * (1 + share);
+    }
+  }
+}
+
 void Actuators::pass(State& state, double s) const {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     auto& at = state.drives[i];

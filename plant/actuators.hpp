@@ -59,6 +59,10 @@ class Actuators {
   void torque(const State& state, double s, std::span<const double> psi, std::span<const double> psid,
               double friction, std::span<double> tau) const;
 
+  /// Adds what friction leaves of tau, and gives its slopes d tau_i / d psid_i, n_u each.
+  void add_friction(std::span<const double> psid, std::span<double> tau) const;
+  void friction_slopes(std::span<const double> psid, std::span<double> slopes) const;
+
   /// `s` seconds go by.
   void pass(State& state, double s) const;
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "loop/arrivals_file.hpp"
+#include "loop/review.hpp"
 #include "processes/bus_figures.hpp"
 #include "processes/keep.hpp"
 #include "processes/plant_on_bus.hpp"
@@ -68,6 +69,7 @@ void PlantSession::finish(const RunFault* fault) {
   Result result =
       result_of(experiment, run_.recorder().measures(), line_.real_time ? "real_time" : "lockstep",
                 std::chrono::duration<double>(bus_->wall_time).count());
+  result.warnings = review(experiment, run_.plan(), run_.recorder());
   result.session = bus_->session;
   result.bus = bus_figures(*bus_);
   if (line_.real_time) add_deadlines(*result.bus, *bus_, run_.deadlines(), experiment.deadline.safe_state);

@@ -2,17 +2,25 @@
 #include "stability/confirmation.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace mixloop {
 namespace {
 
-constexpr double kDisturbance = 1e-6;
+constexpr double kDisturbance = 1e-6;         // rad or m
+constexpr double kAboveRounding = 0x1p20;     // of a motor's position, at least
 constexpr int kMostTicks = 20'000;
+
+/// Of each motor.
+Vector disturbance(const Reference& at) {
+  const double roundoff = std::numeric_limits<double>::epsilon();
+  return (kAboveRounding * roundoff * at.psi.cwiseAbs()).cwiseMax(kDisturbance);
+}
 
 /// One robot that holds the reference.
 class Holding {
  public:
-  Holding(const Experiment& experiment, const Reference& start, const Sampling& sampling, double off)
+  Holding(const Experiment& experiment, const Reference& start, const Sampling& sampling, const Vector& off)
       : start_(start),
         controller_(make_controller(experiment)),
         plant_(plant_of(experiment, start, sampling, off)) {
@@ -41,9 +49,9 @@ class Holding {
 
  private:
   static Plant plant_of(const Experiment& experiment, const Reference& start, const Sampling& sampling,
-                        double off) {
+                        const Vector& off) {
     Vector psi = with_free_at_home(*experiment.scene, {start.psi, {}, {}}).psi;
-    psi.head(start.psi.size()).array() += off;
+    psi.head(start.psi.size()) += off;
     PlantSettings settings = ideal(experiment.plant);
     settings.command_delay = sampling.delay;
     settings.torque_limit.clear();
@@ -66,14 +74,17 @@ std::string_view name_of(Fate fate) {
 
 Fate fate_of_disturbance(const Experiment& experiment, const Plan& plan, const Sampling& sampling) {
   const Reference start = plan.at(plan.start_tick());
-  Holding disturbed(experiment, start, sampling, kDisturbance), still(experiment, start, sampling, 0);
+  const Vector beside = disturbance(start);
+  Holding disturbed(experiment, start, sampling, beside),
+      still(experiment, start, sampling, Vector::Zero(beside.size()));
   int small = 0;  // ticks in a row: an oscillation passes through zero
   for (int k = 0; k < kMostTicks; ++k) {
     disturbed.tick();
     still.tick();
-    const double off = (disturbed.psi() - still.psi()).cwiseAbs().maxCoeff();
-    if (!(off < 1e3 * kDisturbance)) return Fate::grows;
-    small = off < 1e-3 * kDisturbance ? small + 1 : 0;
+    const Vector off = (disturbed.psi() - still.psi()).head(beside.size());
+    const double share = off.cwiseQuotient(beside).cwiseAbs().maxCoeff();
+    if (!(share < 1e3)) return Fate::grows;
+    small = share < 1e-3 ? small + 1 : 0;
     if (small == 50) return Fate::decays;
   }
   return Fate::undecided;

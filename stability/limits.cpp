@@ -36,18 +36,18 @@ std::optional<double> longest_tick(const LinearLoop& loop, double delay, double 
 
 std::optional<double> first_unstable(const std::function<double(double)>& radius, double start, double end,
                                      const std::function<double(double)>& next) {
-  if (radius(start) > 1) return start;
+  if (grows(radius(start))) return start;
   for (double stable = start; stable != end;) {
     const bool upwards = end > start;
     const double ahead = upwards ? std::min(next(stable), end) : std::max(next(stable), end);
-    if (!(radius(ahead) > 1)) {
+    if (!grows(radius(ahead))) {
       stable = ahead;
       continue;
     }
     double unstable = ahead;
     while (std::abs(unstable - stable) > 1e-7 * std::abs(unstable)) {
       const double middle = (stable + unstable) / 2;
-      (radius(middle) > 1 ? unstable : stable) = middle;
+      (grows(radius(middle)) ? unstable : stable) = middle;
     }
     return stable;
   }

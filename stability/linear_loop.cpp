@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/scene/fully_driven.hpp"
 
 namespace mixloop {
@@ -17,6 +18,7 @@ Equations::Workspace linear_dynamics(const std::shared_ptr<const Scene>& scene,
 
 Linearisation::Linearisation(const Experiment& experiment)
     : scene_(experiment.scene),
+      parameters_(experiment.plant_parameters),
       settings_(experiment.controller),
       plant_(linear_dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation)),
       model_(linear_dynamics(fully_driven(experiment.controller_scene), experiment.controller_parameters,
@@ -26,9 +28,13 @@ LinearLoop Linearisation::at(const Reference& reference, double t) {
   const PsiMotion at = whole_motion(*scene_, reference);
   const auto n = at.psi.size(), n_u = reference.psi.size();
   const Matrix slopes = forward_dynamics_slopes(plant_, at, t);
-  if (!slopes.allFinite())
-    throw RunFault("singular",
-                   fmt::format("the mass matrix is singular at {:.6g} s: nothing to linearise", t));
+  if (!slopes.allFinite()) {
+    const auto model = make_model<double>(scene_, std::span<const double>(parameters_));
+    const auto why = why_mass_is_singular(model, span_of(at.psi), t);
+    throw RunFault("singular", fmt::format("at {:.6g} s {}: nothing to linearise", t,
+                                           why ? "the mass matrix is singular: " + *why
+                                               : "the plant's linearisation is not finite"));
+  }
   LinearLoop loop{Matrix::Zero(2 * n, 2 * n), Matrix::Zero(2 * n, n_u), feedback(settings_, model_, at, t)};
   loop.A.topRightCorner(n, n).setIdentity();
   loop.A.bottomRows(n) = slopes.leftCols(2 * n);

@@ -26,6 +26,7 @@ class Linearisation {
 
  private:
   const std::shared_ptr<const Scene> scene_;
+  const std::vector<double> parameters_;
   const ControllerSettings settings_;
   Equations::Workspace plant_, model_;
 };

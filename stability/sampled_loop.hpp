@@ -20,6 +20,11 @@ struct Sampling {
 /// (Astrom & Wittenmark, Computer-Controlled Systems, 3rd ed., section 2.6). `gain` is n_u x 2n.
 Matrix sampled_transition(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling);
 
+/// What rounding leaves of an eigenvalue on the unit circle, where two of them meet (its square root).
+constexpr double kRadiusRounding = 1e-7;
+/// Whether a spectral radius is that of a loop that grows, by itself or by its control.
+inline bool grows(double radius) { return !(radius <= 1 + kRadiusRounding); }
+
 /// The largest magnitude of the transition's eigenvalues: the loop is stable below 1.
 double sampled_radius(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling);
 

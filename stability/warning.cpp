@@ -45,9 +45,9 @@ std::vector<std::string> held_warnings(const Survey& survey) {
   const auto radius = [&](std::size_t i, const Sampling& sampling) {
     return sampled_radius(survey.loops[i], survey.loops[i].feedback.gain(), sampling);
   };
-  if (radius(now, {tick, delay}) > 1) return {describe(now, "is unstable")};
+  if (grows(radius(now, {tick, delay}))) return {describe(now, "is unstable")};
   for (const Sampling& further : {Sampling{tick * (1 + kNear), delay}, Sampling{tick, delay + kNear * tick}})
-    if (const std::size_t i = worst_at(further); radius(i, further) > 1)
+    if (const std::size_t i = worst_at(further); grows(radius(i, further)))
       return {describe(i, "is near its limit")};
   return {};
 }
@@ -58,8 +58,8 @@ std::vector<std::string> continuous_warnings(const Survey& survey, double step) 
   };
   const std::size_t worst = worst_instant(survey, [&](const LinearLoop& loop) { return radius(loop, step); });
   const LinearLoop& loop = survey.loops[worst];
-  const bool unstable = radius(loop, step) > 1;
-  if (!unstable && !(radius(loop, step * (1 + kNear)) > 1)) return {};
+  const bool unstable = grows(radius(loop, step));
+  if (!unstable && !grows(radius(loop, step * (1 + kNear)))) return {};
   return {fmt::format("RK4 steps of {:.3f} ms {} at {:.3f} s of the path: {} (mixloop stability says more)",
                       step * 1e3, unstable ? "are too long" : "are near their limit", survey.times[worst],
                       limit_text("step", limits_of(loop, survey.sampling).longest_rk4_step))};

@@ -12,6 +12,11 @@ Vec<std::complex<double>> eigenvalues(const Matrix& A) {
   return Eigen::EigenSolver<Matrix>(A, false).eigenvalues();
 }
 
+Modes modes(const Matrix& A) {
+  const Eigen::EigenSolver<Matrix> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 Matrix exponential(const Matrix& A) { return A.exp(); }
 
 }  // namespace mixloop

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dynamics/scene/canonical.hpp"
+#include "dynamics/scene/continuous_angles.hpp"
 #include "dynamics/scene/draft.hpp"
 #include "notation/value.hpp"
 
@@ -83,6 +84,7 @@ Scene load_scene(const NodePtr& document) {
   read_singularities(root, draft);
   read_solids(root, draft);
   check_physical(scene, scene.default_parameters());
+  turn_cuts_away_from_home(scene);
   scene.warnings = physical_warnings(scene);
   scene.canonical = canonical_text(scene);
   return std::move(draft.scene);

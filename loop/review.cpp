@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "loop/review.hpp"
+
+#include <fmt/format.h>
+
+#include "dynamics/procedure/singular_mass.hpp"
+#include "dynamics/scene/continuous_angles.hpp"
+#include "loop/step_fitness.hpp"
+
+namespace mixloop {
+namespace {
+
+IntegratorSettings steps_of(const PlantSettings& plant) {
+  return {plant.integrator, plant.substeps, plant.local_error};
+}
+
+StepTask task_of(const Experiment& experiment, std::int64_t ticks) {
+  return {1 / experiment.rate_hz, ticks, !experiment.plant.actuators.any()};
+}
+
+std::optional<StepDoubt> doubt(const Experiment& experiment, const Plan& plan,
+                               const std::vector<LinearPlant>& plants) {
+  const IntegratorSettings steps = steps_of(experiment.plant);
+  const StepTask task = task_of(experiment, plan.ticks());
+  const auto worst = misfit(steps, task, plants);
+  if (!worst) return std::nullopt;
+  return StepDoubt{describe(*worst, steps, task, plants), worst->grows()};
+}
+
+/// The states that the plant met, and what its drives were asked for. A run that diverged ends in states that are
+/// its divergence.
+std::vector<PlantPose> poses_met(const Recorder& record) {
+  std::int64_t ticks = record.ticks_recorded();
+  if (record.measures().diverged_at) ticks -= ticks / 4;
+  std::vector<PlantPose> poses;
+  auto chosen = ticks_to_look_at(ticks);
+  if (ticks > 0 && chosen.back() != ticks - 1) chosen.push_back(ticks - 1);
+  for (const std::int64_t k : chosen) {
+    const auto psi = map_of(record.psi(k)), psid = map_of(record.psid(k));
+    PlantPose pose{record.time(k), Vector(psi.size() + psid.size()), map_of(record.commanded(k))};
+    pose.x << psi, psid;
+    poses.push_back(std::move(pose));
+  }
+  return poses;
+}
+
+std::vector<std::string> jump_warnings(const Experiment& experiment, const Recorder& record) {
+  AngleWatch angles(*experiment.scene, experiment.plant_parameters);
+  for (std::int64_t k = 0; angles.needed() && k < record.ticks_recorded(); ++k)
+    if (const std::string jumped = angles.look(record.psi(k), record.time(k)); !jumped.empty())
+      return {fmt::format("the coordinate '{}' jumped by a turn at {:.4g} s: its atan2 gives no more than one turn "
+                          "about its value at home, and its value counts (a load, a slide or a gear reads it); from "
+                          "there on the motion is not the mechanism's",
+                          jumped, record.time(k))};
+  return {};
+}
+
+/// Of a run that ended in what is not finite: whether the mass matrix was.
+std::vector<std::string> singular_warnings(const Experiment& experiment, const Recorder& record) {
+  const std::int64_t last = record.ticks_recorded() - 1;
+  if (!record.measures().diverged_at) return {};
+  const auto parameters = record.conditions(last).parameters;
+  const auto model = make_model<double>(experiment.scene, parameters);
+  const auto why = why_mass_is_singular(model, record.psi(last), record.time(last));
+  if (!why) return {};
+  return {fmt::format("the mass matrix was singular at {:.4g} s: {}", record.time(last), *why)};
+}
+
+/// The programs that such a look takes need no compiling.
+PlantProbe probe_of(const Experiment& experiment) {
+  return {experiment.scene, experiment.plant_parameters, experiment.plant.actuators, Evaluation::reference};
+}
+
+}  // namespace
+
+std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& plan) {
+  PlantProbe probe = probe_of(experiment);
+  const auto poses = poses_on_plan(probe, plan, experiment.rate_hz);
+  return doubt(experiment, plan, linearised(probe, poses));
+}
+
+std::vector<std::string> review(const Experiment& experiment, const Plan& plan, const Recorder& record) {
+  std::vector<std::string> said;
+  const std::int64_t ticks = record.ticks_recorded();
+  if (ticks == 0) return said;
+  PlantProbe probe = probe_of(experiment);
+  const auto poses = poses_met(record);
+  if (!step_doubt(experiment, plan))
+    if (const auto met = doubt(experiment, plan, linearised(probe, poses)))
+      said.push_back(met->text + " (a state that the run met)");
+  if (const auto& choice = experiment.integrator_choice; choice && said.empty()) {
+    const ChoiceTask task{experiment.rate_hz, choice->asked, !experiment.plant.actuators.any()};
+    const LocalError met = largest_local_error(probe, poses, steps_of(experiment.plant), task);
+    if (!(met.error <= choice->asked))
+      said.push_back(fmt::format(
+          "integrator: auto took {} with {} step{} a tick for the path, but at {:.4g} s, where the run really was, "
+          "that adds {:.1e} a tick and {:.1e} was asked for; expected a smaller plant.local_error, or a named "
+          "integrator",
+          facts(choice->method).name, choice->substeps, choice->substeps == 1 ? "" : "s", met.t, met.error,
+          choice->asked));
+  }
+  for (auto& more : {jump_warnings(experiment, record), singular_warnings(experiment, record)})
+    said.insert(said.end(), more.begin(), more.end());
+  return said;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loop/recorder.hpp"
+
+namespace mixloop {
+
+/// Steps that are too coarse for the plant itself.
+struct StepDoubt {
+  std::string text;
+  bool grows = false;  ///< by them a motion grows that doesn't
+};
+
+/// That of an experiment's plant along its plan; nothing where its steps are fine enough.
+std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& plan);
+
+/// What is to be said of a run that is over and was not to be foreseen: steps too coarse for the states that the
+/// plant really met; a local error beyond what `integrator: auto` was asked for; an angle that jumped; a mass matrix
+/// that was singular where the run ended.
+std::vector<std::string> review(const Experiment& experiment, const Plan& plan, const Recorder& record);
+
+}  // namespace mixloop
