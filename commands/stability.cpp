@@ -173,13 +173,16 @@ void print(const nlohmann::json& one) {
 
 /// Of the sampled loop, and of what the plant's steps make of it.
 std::string verdict_of(const PathLimits& path, const std::optional<StepDoubt>& doubt) {
-  return grows(path.radius) || (doubt && doubt->grows) ? "unstable" : path.radius >= 1 - kRadiusRounding ? "marginal" : "stable";
+  return grows(path.radius) || (doubt && doubt->grows) ? "unstable"
+         : path.radius >= 1 - kRadiusRounding          ? "marginal"
+                                                       : "stable";
 }
 
 /// Where simulation and linearisation disagree, it is the plant's steps that do.
 bool contradicts(const nlohmann::json& confirmed) {
   return std::any_of(confirmed.begin(), confirmed.end(), [](const nlohmann::json& fate) {
-    return !fate.is_null() && (fate.at("below") == name_of(Fate::grows) || fate.at("above") == name_of(Fate::decays));
+    return !fate.is_null() &&
+           (fate.at("below") == name_of(Fate::grows) || fate.at("above") == name_of(Fate::decays));
   });
 }
 
@@ -232,8 +235,8 @@ class Study {
     try {
       return study(variant);
     } catch (const InputError& error) {
-      static const std::set<std::string> kOfTheValue = {"singular_mass", "unreachable",  "singular_path",
-                                                        "crosses_branch", "over_limit", "angle_jumps"};
+      static const std::set<std::string> kOfTheValue = {"singular_mass",  "unreachable", "singular_path",
+                                                        "crosses_branch", "over_limit",  "angle_jumps"};
       if (!kOfTheValue.contains(error.code)) throw;
       return impossible(error.code, error.what());
     } catch (const RunFault& fault) {
@@ -267,7 +270,8 @@ class Study {
       json["confirmed"] = confirmation(experiment, plan, start, instants.sampling);
     if (contradicts(json["confirmed"])) {
       json["warnings"].push_back(
-          "a disturbance grows in the simulation where the linearised loop is stable, or decays where it isn't: the "
+          "a disturbance grows in the simulation where the linearised loop is stable, or decays where it "
+          "isn't: the "
           "plant's steps don't follow the plant");
       if (json["verdict"] != "unstable") json["verdict"] = "undecided";
     }
@@ -329,7 +333,8 @@ void add_stability_command(CLI::App& app, int& status) {
       "where\n"
       "an eigenvalue leaves the unit circle, each confirmed by simulating a disturbance on both sides of "
       "it.\n"
-      "Marginal is what neither grows nor decays, to rounding; unstable also what grows by the plant's own steps.\n"
+      "Marginal is what neither grows nor decays, to rounding; unstable also what grows by the plant's own "
+      "steps.\n"
       "Exit status 0 where the experiment as it stands is stable or marginal all along, 1 where it isn't.\n"
       "Examples:\n"
       "  mixloop stability experiments/paper.yaml --picture stability.svg\n"

@@ -60,23 +60,24 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
 std::string described(std::span<const Scene::Independent> coordinates) {
   std::string text;
   for (const auto& coordinate : coordinates)
-    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", coordinate.name, coordinate.linear ? " (linear)" : "",
-                        coordinate.driven ? "" : " (free)");
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", coordinate.name,
+                        coordinate.linear ? " (linear)" : "", coordinate.driven ? "" : " (free)");
   return text;
 }
 
-/// A controller's torques go to the plant's motors one by one, and its measurements come so: by place, not by name.
+/// A controller's torques go to the plant's motors one by one, and its measurements come so: by place, not by
+/// name.
 void require_same_coordinates(const Scene& controllers, const Scene& plants, const Place& place) {
   const auto same = [](const Scene::Independent& a, const Scene::Independent& b) {
     return a.name == b.name && a.linear == b.linear && a.driven == b.driven;
   };
   if (std::ranges::equal(controllers.independent, plants.independent, same)) return;
-  const bool as_many =
-      controllers.n() == plants.n() && controllers.n_u() == plants.n_u();
-  throw InputError(as_many ? "other_motors" : "wrong_size", place,
-                   fmt::format("the controller's scene has the motors {}, the plant's {}; expected the same names, "
-                               "kinds and order",
-                               described(controllers.independent), described(plants.independent)));
+  const bool as_many = controllers.n() == plants.n() && controllers.n_u() == plants.n_u();
+  throw InputError(
+      as_many ? "other_motors" : "wrong_size", place,
+      fmt::format("the controller's scene has the motors {}, the plant's {}; expected the same names, "
+                  "kinds and order",
+                  described(controllers.independent), described(plants.independent)));
 }
 
 void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
@@ -190,8 +191,7 @@ Experiment with_integrator_settled(Experiment experiment, const Plan& plan) {
   PlantProbe probe(experiment.scene, experiment.plant_parameters, experiment.plant.actuators,
                    Evaluation::machine_code);
   const IntegratorChoice choice = choose_integrator(
-      probe, plan,
-      {experiment.rate_hz, experiment.plant.local_error, !experiment.plant.actuators.any()});
+      probe, plan, {experiment.rate_hz, experiment.plant.local_error, !experiment.plant.actuators.any()});
   experiment.plant.integrator = choice.method;
   experiment.plant.substeps = choice.substeps;
   experiment.plant.local_error = 0;  // the steps are settled

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::int64_t kMostPoses = 48;
 constexpr int kMostSubsteps = 256;
-constexpr double kOwnMotion = 1e-3;  // of its amplitude: what of the plant's own motion may be lost within a run
+constexpr double kOwnMotion =
+    1e-3;  // of its amplitude: what of the plant's own motion may be lost within a run
 
 /// What methods add in a tick from some poses, beside DOP853 under error control.
 class LocalErrors {
@@ -78,7 +79,8 @@ std::vector<std::int64_t> ticks_to_look_at(std::int64_t ticks) {
 
 std::vector<PlantPose> poses_on_plan(PlantProbe& probe, const Plan& plan, double rate_hz) {
   std::vector<PlantPose> poses;
-  for (const std::int64_t k : ticks_to_look_at(plan.ticks())) poses.push_back(probe.on_plan(plan, k, rate_hz));
+  for (const std::int64_t k : ticks_to_look_at(plan.ticks()))
+    poses.push_back(probe.on_plan(plan, k, rate_hz));
   return poses;
 }
 
@@ -92,7 +94,7 @@ IntegratorChoice choose_integrator(PlantProbe& probe, const Plan& plan, const Ch
   const std::vector<PlantPose> poses = poses_on_plan(probe, plan, task.rate_hz);
   const std::vector<LinearPlant> plants = linearised(probe, poses);
   const StepTask steps_task{1 / task.rate_hz, plan.ticks(), task.ideal_drives};
-  const MotionTolerance own_motion{.run = kOwnMotion, .tick = task.local_error / 4};
+  const MotionTolerance own_motion{.run = kOwnMotion, .tick = task.local_error / 2};
   LocalErrors errors(probe, poses, task);
   std::optional<IntegratorChoice> best;
   double least = 0;

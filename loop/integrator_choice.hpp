@@ -26,10 +26,10 @@ struct ChoiceTask {
 
 /// The cheapest method of fixed cost that keeps `local_error` a tick of 1 / rate: looked at along the path,
 /// at up to 48 ticks, with the torque that follows it held over the tick, against DOP853 under error control;
-/// the estimate must stay below half of it. A method that gets the plant's own motions about these states wrong
-/// (step_fitness.hpp) is left out, whether the path excites them or not. Cost is counted in evaluations and the
-/// Jacobian's operations, never by a clock: the same everywhere. Throws InputError("out_of_reach") where none
-/// keeps it.
+/// the estimate must stay below half of it. A method that gets the plant's own motions about these states
+/// wrong (step_fitness.hpp) is left out, whether the path excites them or not. Cost is counted in evaluations
+/// and the Jacobian's operations, never by a clock: the same everywhere. Throws InputError("out_of_reach")
+/// where none keeps it.
 IntegratorChoice choose_integrator(PlantProbe& probe, const Plan& plan, const ChoiceTask& task);
 
 /// What the steps of a tick add at the worst of some poses, as error_size measures it.

@@ -17,9 +17,8 @@ ActuatorSettings friction_alone(const ActuatorSettings& settings) {
 PlantProbe::PlantProbe(const std::shared_ptr<const Scene>& scene, const std::vector<double>& parameters,
                        const ActuatorSettings& actuators, Evaluation how)
     : scene_(scene),
-      dynamics_(equations_of(
-                    scene, how,
-                    {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::linearisation}),
+      dynamics_(equations_of(scene, how,
+                             {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::linearisation}),
                 parameters),
       n_(scene->n()),
       n_u_(scene->n_u()),

@@ -18,8 +18,8 @@ struct PlantPose {
   Vector tau;    ///< n_u
 };
 
-/// A plant's equations of motion about states that it is to go through, or went through: those of the mechanism
-/// with its loads, and of the drives the friction. What else drives and sensors do is left out.
+/// A plant's equations of motion about states that it is to go through, or went through: those of the
+/// mechanism with its loads, and of the drives the friction. What else drives and sensors do is left out.
 class PlantProbe {
  public:
   PlantProbe(const std::shared_ptr<const Scene>& scene, const std::vector<double>& parameters,
@@ -44,7 +44,9 @@ class PlantProbe {
  private:
   void drive(const PlantPose& pose, const Vector& x);
   std::span<const double> psi(const Vector& x) const { return {x.data(), static_cast<std::size_t>(n_)}; }
-  std::span<const double> psid(const Vector& x) const { return {x.data() + n_, static_cast<std::size_t>(n_)}; }
+  std::span<const double> psid(const Vector& x) const {
+    return {x.data() + n_, static_cast<std::size_t>(n_)};
+  }
 
   std::shared_ptr<const Scene> scene_;
   Equations::Workspace dynamics_;

@@ -27,8 +27,8 @@ std::optional<StepDoubt> doubt(const Experiment& experiment, const Plan& plan,
   return StepDoubt{describe(*worst, steps, task, plants), worst->grows()};
 }
 
-/// The states that the plant met, and what its drives were asked for. A run that diverged ends in states that are
-/// its divergence.
+/// The states that the plant met, and what its drives were asked for. A run that diverged ends in states that
+/// are its divergence.
 std::vector<PlantPose> poses_met(const Recorder& record) {
   std::int64_t ticks = record.ticks_recorded();
   if (record.measures().diverged_at) ticks -= ticks / 4;
@@ -48,10 +48,11 @@ std::vector<std::string> jump_warnings(const Experiment& experiment, const Recor
   AngleWatch angles(*experiment.scene, experiment.plant_parameters);
   for (std::int64_t k = 0; angles.needed() && k < record.ticks_recorded(); ++k)
     if (const std::string jumped = angles.look(record.psi(k), record.time(k)); !jumped.empty())
-      return {fmt::format("the coordinate '{}' jumped by a turn at {:.4g} s: its atan2 gives no more than one turn "
-                          "about its value at home, and its value counts (a load, a slide or a gear reads it); from "
-                          "there on the motion is not the mechanism's",
-                          jumped, record.time(k))};
+      return {fmt::format(
+          "the coordinate '{}' jumped by a turn at {:.4g} s: its atan2 gives no more than one turn "
+          "about its value at home, and its value counts (a load, a slide or a gear reads it); from "
+          "there on the motion is not the mechanism's",
+          jumped, record.time(k))};
   return {};
 }
 
@@ -92,12 +93,14 @@ std::vector<std::string> review(const Experiment& experiment, const Plan& plan, 
     const ChoiceTask task{experiment.rate_hz, choice->asked, !experiment.plant.actuators.any()};
     const LocalError met = largest_local_error(probe, poses, steps_of(experiment.plant), task);
     if (!(met.error <= choice->asked))
-      said.push_back(fmt::format(
-          "integrator: auto took {} with {} step{} a tick for the path, but at {:.4g} s, where the run really was, "
-          "that adds {:.1e} a tick and {:.1e} was asked for; expected a smaller plant.local_error, or a named "
-          "integrator",
-          facts(choice->method).name, choice->substeps, choice->substeps == 1 ? "" : "s", met.t, met.error,
-          choice->asked));
+      said.push_back(
+          fmt::format("integrator: auto took {} with {} step{} a tick for the path, but at {:.4g} s, where "
+                      "the run really was, "
+                      "that adds {:.1e} a tick and {:.1e} was asked for; expected a smaller "
+                      "plant.local_error, or a named "
+                      "integrator",
+                      facts(choice->method).name, choice->substeps, choice->substeps == 1 ? "" : "s", met.t,
+                      met.error, choice->asked));
   }
   for (auto& more : {jump_warnings(experiment, record), singular_warnings(experiment, record)})
     said.insert(said.end(), more.begin(), more.end());

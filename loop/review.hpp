@@ -18,9 +18,9 @@ struct StepDoubt {
 /// That of an experiment's plant along its plan; nothing where its steps are fine enough.
 std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& plan);
 
-/// What is to be said of a run that is over and was not to be foreseen: steps too coarse for the states that the
-/// plant really met; a local error beyond what `integrator: auto` was asked for; an angle that jumped; a mass matrix
-/// that was singular where the run ended.
+/// What is to be said of a run that is over and was not to be foreseen: steps too coarse for the states that
+/// the plant really met; a local error beyond what `integrator: auto` was asked for; an angle that jumped; a
+/// mass matrix that was singular where the run ended.
 std::vector<std::string> review(const Experiment& experiment, const Plan& plan, const Recorder& record);
 
 }  // namespace mixloop

@@ -27,25 +27,26 @@ struct StepTask {
 
 /// A motion of the plant's own that a method's steps get wrong.
 struct Misfit {
-  double t = 0;                     ///< s: of the state
-  std::complex<double> pole;        ///< 1/s: of the plant there
-  std::complex<double> step, truth; ///< what becomes of that motion in a tick, by the steps and in truth
-  double error = 0;       ///< the largest within the run, of the amplitude that it starts with
-  double tick_error = 0;  ///< that of a tick, the largest of all motions about that state
+  double t = 0;                      ///< s: of the state
+  std::complex<double> pole;         ///< 1/s: of the plant there
+  std::complex<double> step, truth;  ///< what becomes of that motion in a tick, by the steps and in truth
+  double error = 0;                  ///< the largest within the run, of the amplitude that it starts with
+  double tick_error =
+      0;  ///< that a tick adds to motions of 1 rad or m about that state, as error_size measures it
 
   /// Whether it grows by the steps, and more than in truth.
   bool grows() const;
 };
 
-/// What may be got wrong of a motion, of its amplitude.
+/// What may be got wrong of a motion within the run, of its amplitude, and in a tick, as `tick_error`.
 struct MotionTolerance {
   double run = 0.05;
   double tick = HUGE_VAL;
 };
 
-/// The worst motion of the plant's own that these steps get wrong by more than `tolerance`, whether it grows where it shouldn't, dies away or falls out of step; nothing where they follow all of
-/// them, or choose their length by themselves. What is compared are the eigenvalues of the method's map of a tick
-/// and of e^(A T).
+/// The worst motion of the plant's own that these steps get wrong by more than `tolerance`, whether it grows
+/// where it shouldn't, dies away or falls out of step; nothing where they follow all of them, or choose their
+/// length by themselves. What is compared are the eigenvalues of the method's map of a tick and of e^(A T).
 std::optional<Misfit> misfit(const IntegratorSettings& steps, const StepTask& task,
                              const std::vector<LinearPlant>& plants, const MotionTolerance& tolerance = {});
 

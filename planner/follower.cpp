@@ -19,8 +19,8 @@ IkOutcome Follower::complete(double step, const PathPoint& desired, Vector psi) 
 
 IkOutcome Follower::advance(double step) { return try_advance(step, ik_.arm() ? 0 : 12); }
 
-// A solution far away, or far from where the motion in hand leads, may lie on another branch: go there in
-// smaller steps.
+// A solution far from where the motion in hand leads, or far away and not just there, may lie on another
+// branch: go there in smaller steps.
 IkOutcome Follower::try_advance(double step, int halvings) {
   const PathPoint desired = itinerary_.at(step);
   const double dt = time(step) - time(now_.step);
@@ -30,8 +30,9 @@ IkOutcome Follower::try_advance(double step, int halvings) {
   const Vector expected = psi;
   const IkOutcome outcome = ik_.position(desired.position, time(step), psi);
   const auto size = [&](const Vector& move) { return move.cwiseQuotient(ik_.motor_scale()).norm(); };
-  const double move = size(psi - from);
-  const bool far = outcome != IkOutcome::solved || move > 0.3 || size(psi - expected) > 0.1 * move + 1e-3;
+  const double move = size(psi - from), off = size(psi - expected);
+  const bool far =
+      outcome != IkOutcome::solved || off > 0.1 * move + 1e-3 || (move > 0.3 && off > 1e-3 * move);
   if (far && halvings > 0) {
     const IkOutcome half = try_advance((now_.step + step) / 2, halvings - 1);
     return half == IkOutcome::solved ? try_advance(step, halvings - 1) : half;

@@ -16,9 +16,10 @@ constexpr double kFarthestStart = 4;  // in motor scales: about a half turn of a
 
 constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
 constexpr double kNothing = 1e3 * kRoundOff;  // of what a sum consists of: a sum of nothing
-constexpr double kLinear = 1e-3;              // of a step: what it leaves where the map hardly bends over it
+constexpr double kStraight = 1e-3;            // of a way: how far the end effector may be off it
 
-/// Of the transforms from the ground to the end effector, and the point in its frame; 0 where all of it varies.
+/// Of the transforms from the ground to the end effector, and the point in its frame; 0 where all of it
+/// varies.
 double length_of_chain(const Model<double>& model) {
   double length = model.end_effector_point.norm();
   for (int frame = model.scene->end_effector.frame; frame != 0;) {
@@ -81,8 +82,8 @@ InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
   }
 }
 
-// A column of the Jacobian is nothing where it is the rounding of the joints' shares that it is summed up from:
-// so however fine a drive is, and whatever its units.
+// A column of the Jacobian is nothing where it is the rounding of the joints' shares that it is summed up
+// from: so however fine a drive is, and whatever its units.
 Vector InverseKinematics::moved_at_home() {
   const Scene& scene = *model_.scene;
   const Eigen::Matrix3d J = jacobian_of(forward(home_, zero_, zero_, 0));
@@ -103,9 +104,10 @@ Vector InverseKinematics::moved_at_home() {
   return moved;
 }
 
-double InverseKinematics::resolution(const Eigen::Vector3d& point, const Eigen::Matrix3d& J,
-                                     const Vector& psi) const {
-  return 4 * kRoundOff * (on_axes(point).norm() + J.leftCols(n_u_).cwiseAbs().colwise().sum().dot(psi.cwiseAbs()));
+// By the motors' angles at home: what a search winds up beyond them resolves nothing.
+double InverseKinematics::resolution(const Eigen::Vector3d& point) const {
+  return 4 * kRoundOff *
+         (on_axes(point).norm() + scale_ * home_.cwiseQuotient(motor_scale_).cwiseAbs().sum());
 }
 
 IkOutcome InverseKinematics::closed_form(const Eigen::Vector3d& point, Vector& psi) const {
@@ -156,9 +158,20 @@ double InverseKinematics::miss(const Eigen::Vector3d& point, double t, const Vec
   return on_axes(point - forward(psi, zero_, zero_, t).position).norm();
 }
 
+// A fine drive and a long slide have far to go, and where the end effector follows the step all along,
+// nothing winds up.
+bool InverseKinematics::leads_straight(const Eigen::Vector3d& point, double t, const Vector& psi,
+                                       const Vector& step, const Eigen::Vector3d& error) {
+  for (const double part : {0.25, 0.5, 1.0}) {
+    const Eigen::Vector3d left = on_axes(point - forward(psi + part * step, zero_, zero_, t).position);
+    if (!((left - (1 - part) * error).norm() <= kStraight * error.norm())) return false;
+  }
+  return true;
+}
+
 IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Vector& psi) {
   if (arm_) return closed_form(point, psi);
-  double damping = 0, longest = 0.5;
+  double damping = 0;
   const EndEffectorState<double>* state = &forward(psi, zero_, zero_, t);
   Eigen::Vector3d error = on_axes(point - state->position);
   Eigen::Matrix3d J = jacobian_of(*state);
@@ -167,21 +180,17 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
     const Vector trial = psi + step;
     // Longer steps would wind the motors up.
     const double length = step.cwiseQuotient(motor_scale_).norm();
-    const bool sound = step.allFinite() && length <= longest;
+    const bool sound = step.allFinite() && (length <= 0.5 || leads_straight(point, t, psi, step, error));
     const double distance = error.norm();
-    const double finest = resolution(point, J, psi);
     // What Newton's method still has to go is quadratically small in the step (next to a singular pose a
     // small distance may take a long one): this step ends it.
-    if (sound && damping == 0 && distance <= std::max(1e-10 * scale_, finest) &&
+    if (sound && damping == 0 && distance <= std::max(1e-10 * scale_, resolution(point)) &&
         length <= 1e-8 + kRoundOff * psi.cwiseQuotient(motor_scale_).norm()) {
       psi = trial;
       return IkOutcome::solved;
     }
     if (sound) state = &forward(trial, zero_, zero_, t);
     if (const Eigen::Vector3d left = on_axes(point - state->position); sound && left.norm() < distance) {
-      // A fine drive or a long slide has far to go, and where the map hardly bends nothing winds up.
-      const Eigen::Vector3d foreseen = error - J.leftCols(n_u_) * step;
-      if (damping != 0 && (left - foreseen).norm() <= kLinear * (error - left).norm()) longest *= 4;
       psi = trial;
       error = left;
       J = jacobian_of(*state);
@@ -191,8 +200,8 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
       if (damping > 1e12) break;
     }
   }
-  return error.norm() <= std::max(1e-12 * scale_, resolution(point, J, psi)) ? IkOutcome::solved
-                                                                             : IkOutcome::out_of_reach;
+  return error.norm() <= std::max(1e-12 * scale_, resolution(point)) ? IkOutcome::solved
+                                                                     : IkOutcome::out_of_reach;
 }
 
 IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, double t, Vector& psi,

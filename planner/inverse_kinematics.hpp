@@ -33,8 +33,8 @@ class InverseKinematics {
 
   /// The arm whose closed form is used, or nothing.
   const std::optional<ThreeAxisArm>& arm() const { return arm_; }
-  /// A length typical of the mechanism, m: of the transforms to the end effector, or where all of them vary, of
-  /// its move by a motor's unit.
+  /// A length typical of the mechanism, m: of the transforms to the end effector, or where all of them vary,
+  /// of its move by a motor's unit.
   double scale() const { return scale_; }
   /// Of each motor, the move that takes the end effector, at home, about as far as that (where it takes it
   /// nowhere, 1 rad or that length): the measure of what is near in the motors' space.
@@ -65,8 +65,12 @@ class InverseKinematics {
   IkOutcome closed_form_rates(const PathPoint& point, Vector& psid, Vector& psidd) const;
   /// How far a unit of each motor takes the end effector at home, m; 0 where that is nothing but rounding.
   Vector moved_at_home();
+  /// Whether the end effector goes straight to `point`, from which `error` parts it, as the motors go on by
+  /// `step`.
+  bool leads_straight(const Eigen::Vector3d& point, double t, const Vector& psi, const Vector& step,
+                      const Eigen::Vector3d& error);
   /// What the rounding of a point and of the motors' angles leaves of the end effector's place, m.
-  double resolution(const Eigen::Vector3d& point, const Eigen::Matrix3d& J, const Vector& psi) const;
+  double resolution(const Eigen::Vector3d& point) const;
   // With fewer than three motors the systems of three equations are filled up by x_i = 0.
   Eigen::Vector3d on_axes(const Eigen::Vector3d& x) const;
   Eigen::Matrix3d jacobian_of(const EndEffectorState<double>& state) const;

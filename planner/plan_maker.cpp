@@ -107,8 +107,7 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   AngleWatch angles(*model_.scene, model_.parameters);
   for (std::int64_t step = 0; step <= steps; ++step) {
     const auto at = static_cast<double>(step);
-    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::solved)
-      refusal_.no_way(outcome, follower, at);
+    if (follower.advance(at) != IkOutcome::solved) refusal_.no_way(follower, at);
     const double t = follower.time(at);
     if (const std::string jumped = jump(angles, follower.now().motors.psi, t); !jumped.empty())
       refusal_.jump(at, jumped);
@@ -131,8 +130,7 @@ std::string PlanMaker::jump(AngleWatch& angles, const Vector& motors, double t) 
 void PlanMaker::follow_within(Plan& plan, std::int64_t step, Follower& follower) {
   for (std::int64_t j = 1; j < width_; ++j) {
     const double at = static_cast<double>(step) + settings_.within[static_cast<std::size_t>(j)];
-    if (const IkOutcome outcome = follower.advance(at); outcome != IkOutcome::solved)
-      refusal_.no_way(outcome, follower, at);
+    if (follower.advance(at) != IkOutcome::solved) refusal_.no_way(follower, at);
     write(follower.now(), follower.time(at), row(plan, step * width_ + j));
   }
 }

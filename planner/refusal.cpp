@@ -7,6 +7,11 @@
 #include <cmath>
 
 namespace mixloop {
+namespace {
+
+constexpr double kTouching = 1e-9;  // of the mechanism's size: what is nearer than that is reached
+
+}  // namespace
 
 std::string Refusal::where(double step) const {
   return fmt::format("{:.6g} s into the path, {}, ", step / itinerary_.step_rate(),
@@ -38,7 +43,8 @@ void Refusal::excess(const Excess& excess) const {
 
 std::string Refusal::jump_text(const std::string& coordinate) {
   return "the coordinate '" + coordinate +
-         "' jumps by a turn, half a turn away from its value at home: its atan2 gives no more than one turn, and "
+         "' jumps by a turn, half a turn away from its value at home: its atan2 gives no more than one turn, "
+         "and "
          "its value counts (a load, a slide or a gear reads it); expected a path that stays within it";
 }
 
@@ -74,15 +80,15 @@ void Refusal::no_start(IkOutcome outcome, const Vector& nearest, double t) const
   if (outcome == IkOutcome::other_branch)
     throw InputError("crosses_branch", path_.vias[0].place,
                      start + "can be reached only on another branch than home's");
-  if (outcome == IkOutcome::singular) singular(0, nearest, t);
+  if (outcome == IkOutcome::singular || out_of_reach(0, t, nearest) <= kTouching * ik_.scale())
+    singular(0, nearest, t);
   throw InputError("unreachable", path_.vias[0].place,
                    start + "is out of reach: " + reach_text(0, t, nearest));
 }
 
-void Refusal::no_way(IkOutcome outcome, Follower& follower, double step) const {
+void Refusal::no_way(Follower& follower, double step) const {
   const double end = follower.limit(step);
   const Vector last = follower.now().motors.psi;
-  if (outcome == IkOutcome::singular) singular(end, last, follower.time(end));
   double farthest = step, most = 0;
   for (int i = 0; i <= 256; ++i) {
     const double at = step + (static_cast<double>(itinerary_.lap_steps()) - step) * i / 256;
@@ -91,6 +97,8 @@ void Refusal::no_way(IkOutcome outcome, Follower& follower, double step) const {
     most = excess;
     farthest = at;
   }
+  // Where all of it can be reached, it is the way there that the motors don't find.
+  if (most <= kTouching * ik_.scale()) singular(end, last, follower.time(end));
   throw InputError("unreachable", itinerary_.place(end),
                    where(end) + "it leaves what can be reached; " + where(farthest) + "it is " +
                        reach_text(farthest, follower.time(farthest), last));

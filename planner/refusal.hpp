@@ -15,8 +15,9 @@ class Refusal {
 
   /// The search for the path's start failed at plant time t, nearest to it at `nearest`.
   [[noreturn]] void no_start(IkOutcome outcome, const Vector& nearest, double t) const;
-  /// The follower failed on its way to `step`: where the way ends, and how far beyond it the path goes.
-  [[noreturn]] void no_way(IkOutcome outcome, Follower& follower, double step) const;
+  /// The follower failed on its way to `step`: where the way ends, and how far out of reach the path goes
+  /// from there, or which singularity it ends in.
+  [[noreturn]] void no_way(Follower& follower, double step) const;
   [[noreturn]] void passage(const Passage& passage) const;
   [[noreturn]] void excess(const Excess& excess) const;
   /// A coordinate whose value counts jumps by a turn.

@@ -7,8 +7,8 @@
 namespace mixloop {
 namespace {
 
-constexpr double kDisturbance = 1e-6;         // rad or m
-constexpr double kAboveRounding = 0x1p20;     // of a motor's position, at least
+constexpr double kDisturbance = 1e-6;      // rad or m
+constexpr double kAboveRounding = 0x1p20;  // of a motor's position, at least
 constexpr int kMostTicks = 20'000;
 
 /// Of each motor.

@@ -30,8 +30,8 @@ Limits limits_of(const LinearLoop& loop, const Sampling& sampling);
 /// 20 ticks aren't too long. Looks every `step` of a second: narrower gaps are not seen.
 std::optional<double> longest_delay(const LinearLoop& loop, double tick, double step);
 
-/// The first x, going on from `start` by `next`, where `radius` passes 1 (see grows), to 1e-7 of it by bisection; empty
-/// where it doesn't up to `end`. `start` itself where it is unstable there.
+/// The first x, going on from `start` by `next`, where `radius` passes 1 (see grows), to 1e-7 of it by
+/// bisection; empty where it doesn't up to `end`. `start` itself where it is unstable there.
 std::optional<double> first_unstable(const std::function<double(double)>& radius, double start, double end,
                                      const std::function<double(double)>& next);
 

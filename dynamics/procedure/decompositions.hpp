@@ -15,7 +15,8 @@ Matrix solved(const Matrix& A, const Matrix& B);
 /// The eigenvalues of a real n x n matrix, by its real Schur form.
 Vec<std::complex<double>> eigenvalues(const Matrix& A);
 
-/// The same with an eigenvector each, of length 1, in the columns; those of a defective matrix are nearly parallel.
+/// The same with an eigenvector each, of length 1, in the columns; those of a defective matrix are nearly
+/// parallel.
 struct Modes {
   Vec<std::complex<double>> values;
   Mat<std::complex<double>> vectors;

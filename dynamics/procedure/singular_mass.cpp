@@ -37,9 +37,8 @@ Vector most_inertia(const Model<double>& model, const Workspace<double>& ws) {
   Vector most = Vector::Zero(model.n());
   for (const auto& body : model.bodies)
     for (const int j : model.path(body.frame)) {
-      const double inertia = length[static_cast<std::size_t>(j)]
-                                 ? body.mass
-                                 : body.mass * lever * lever + body.inertia.trace();
+      const double inertia =
+          length[static_cast<std::size_t>(j)] ? body.mass : body.mass * lever * lever + body.inertia.trace();
       most += inertia * ws.C.row(j).transpose().cwiseAbs2();
     }
   return most;
@@ -101,7 +100,8 @@ std::string description(const Model<double>& model, const Workspace<double>& ws,
 
 }  // namespace
 
-std::optional<std::string> why_mass_is_singular(const Model<double>& model, std::span<const double> psi, double t) {
+std::optional<std::string> why_mass_is_singular(const Model<double>& model, std::span<const double> psi,
+                                                double t) {
   Workspace<double> ws(model);
   mass_matrix<double>(model, psi, t, ws);
   if (!ws.M.allFinite()) return std::nullopt;  // another matter
@@ -126,7 +126,8 @@ void require_inertia(const std::shared_ptr<const Scene>& scene, const std::vecto
     mass_matrix<double>(model, psi, 0.0, ws);
     if (ws.M.allFinite() && !why_mass_is_singular(model, psi, 0)) return;
   }
-  throw InputError("singular_mass", scene->bodies.empty() ? scene->transforms.front().place : scene->bodies.front().place,
+  throw InputError("singular_mass",
+                   scene->bodies.empty() ? scene->transforms.front().place : scene->bodies.front().place,
                    "the mass matrix is singular at every pose: " + *at_home);
 }
 

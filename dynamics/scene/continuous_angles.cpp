@@ -22,7 +22,8 @@ class Counting {
       case Op::constant:
         return;
       case Op::symbol:
-        if (value && symbols_.is_q(node.symbol)) counted_[static_cast<std::size_t>(node.symbol - symbols_.q0)] = true;
+        if (value && symbols_.is_q(node.symbol))
+          counted_[static_cast<std::size_t>(node.symbol - symbols_.q0)] = true;
         return;
       case Op::add:
       case Op::subtract:
@@ -78,8 +79,9 @@ std::vector<bool> read_by_value(const Scene& scene) {
   for (const auto& load : scene.coordinate_loads) counted[static_cast<std::size_t>(load.coordinate)] = true;
   const Symbols symbols(scene);
   for (const auto& transform : scene.transforms)
-    if (transform.coordinate && (transform.prismatic || !turns_by_whole_multiples(
-                                                            transform.theta, symbols.q0 + *transform.coordinate)))
+    if (transform.coordinate &&
+        (transform.prismatic ||
+         !turns_by_whole_multiples(transform.theta, symbols.q0 + *transform.coordinate)))
       counted[static_cast<std::size_t>(*transform.coordinate)] = true;
   return counted;
 }
@@ -135,7 +137,8 @@ class Turned {
 
   int copy(int index) {
     const Formula::Node& node = from_.nodes[static_cast<std::size_t>(index)];
-    const auto turn = std::find_if(turns_.begin(), turns_.end(), [&](const auto& t) { return t.first == index; });
+    const auto turn =
+        std::find_if(turns_.begin(), turns_.end(), [&](const auto& t) { return t.first == index; });
     if (turn != turns_.end()) return turned(node, turn->second);
     Formula::Node made = node;
     if (node.left >= 0) made.left = copy(node.left);
@@ -174,7 +177,8 @@ std::vector<CountedAngle> counted_angles(const Scene& scene) {
   for (auto j = scene.evaluation_order.rbegin(); j != scene.evaluation_order.rend(); ++j) {
     const Formula& constraint = scene.coordinates[static_cast<std::size_t>(*j)].constraint;
     Counting counting(scene, counted);
-    counting.look(constraint, static_cast<int>(constraint.nodes.size()) - 1, counted[static_cast<std::size_t>(*j)]);
+    counting.look(constraint, static_cast<int>(constraint.nodes.size()) - 1,
+                  counted[static_cast<std::size_t>(*j)]);
     for (const int node : counting.found()) angles.push_back({*j, node});
   }
   return angles;

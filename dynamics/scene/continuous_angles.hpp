@@ -8,16 +8,18 @@
 
 namespace mixloop {
 
-/// An atan2 in a constraint whose value counts, not only its sine and cosine: a load reads the coordinate, a slide
-/// moves by it, or it is taken times what is no whole number. A jump of a whole turn would be one of the mechanism.
+/// An atan2 in a constraint whose value counts, not only its sine and cosine: a load reads the coordinate, a
+/// slide moves by it, or it is taken times what is no whole number. A jump of a whole turn would be one of
+/// the mechanism.
 struct CountedAngle {
   int coordinate = 0;
   int node = 0;  ///< of the constraint's formula
 };
 std::vector<CountedAngle> counted_angles(const Scene& scene);
 
-/// Writes each of them as h + atan2 of what is turned back by h, its value at home for the default parameters: its
-/// cut, where it jumps, lies half a turn away from home, and an angle that starts at 170 deg goes on through 180.
+/// Writes each of them as h + atan2 of what is turned back by h, its value at home for the default
+/// parameters: its cut, where it jumps, lies half a turn away from home, and an angle that starts at 170 deg
+/// goes on through 180.
 void turn_cuts_away_from_home(Scene& scene);
 
 /// Looks at these angles again and again along a motion.
