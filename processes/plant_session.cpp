@@ -28,7 +28,7 @@ Ending PlantSession::run_as(Bus& bus, const StopSwitch& stop, std::int64_t sessi
                             std::int64_t next_session) {
   Hardware hardware(run_, [this](std::int64_t k) { return goes_on(k); });
   Runner runner(bus, stop, plant_options(line_, run_.experiment(), run_.plan().ticks(), session), hardware);
-  if (line_.allow_faults) hardware.listen(bus, runner.report());
+  hardware.listen(bus, line_.allow_faults, runner.report());
   line_.take_rights("mixloop-plant", true);
   return drive(runner, next_session);
 }
