@@ -10,8 +10,10 @@
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
 #include "loop/review.hpp"
+#include "notation/long_work.hpp"
 #include "plant/hardware.hpp"
 #include "processes/command_line.hpp"
+#include "report/progress.hpp"
 #include "stability/confirmation.hpp"
 #include "stability/map.hpp"
 
@@ -173,13 +175,16 @@ void print(const nlohmann::json& one) {
 
 /// Of the sampled loop, and of what the plant's steps make of it.
 std::string verdict_of(const PathLimits& path, const std::optional<StepDoubt>& doubt) {
-  return grows(path.radius) || (doubt && doubt->grows) ? "unstable" : path.radius >= 1 - kRadiusRounding ? "marginal" : "stable";
+  return grows(path.radius) || (doubt && doubt->grows) ? "unstable"
+         : path.radius >= 1 - kRadiusRounding          ? "marginal"
+                                                       : "stable";
 }
 
 /// Where simulation and linearisation disagree, it is the plant's steps that do.
 bool contradicts(const nlohmann::json& confirmed) {
   return std::any_of(confirmed.begin(), confirmed.end(), [](const nlohmann::json& fate) {
-    return !fate.is_null() && (fate.at("below") == name_of(Fate::grows) || fate.at("above") == name_of(Fate::decays));
+    return !fate.is_null() &&
+           (fate.at("below") == name_of(Fate::grows) || fate.at("above") == name_of(Fate::decays));
   });
 }
 
@@ -201,12 +206,16 @@ class Study {
           "sensors, actuators and faults are left out: the limits are those of ideal hardware");
       if (!options_.json) fmt::print(stderr, "warning: {}\n", json["warnings"][0].get<std::string>());
     }
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-      say(fmt::format("case {} of {}: {}", i + 1, variants.size(), name_of(variants[i])));
-      json["cases"].push_back(i == 0 ? study(variants[i]) : study_if_possible(variants[i]));
+    try {
+      for (std::size_t i = 0; i < variants.size(); ++i) {
+        say(fmt::format("case {} of {}: {}", i + 1, variants.size(), name_of(variants[i])));
+        json["cases"].push_back(i == 0 ? study(variants[i]) : study_if_possible(variants[i]));
+      }
+    } catch (const Interrupted& interrupted) {
+      json["interrupted"] = interrupted.what();
     }
     say("");
-    if (!options_.picture.empty())
+    if (!options_.picture.empty() && !json.contains("interrupted"))
       draw(maps_, {1 / nominal.rate_hz, nominal.plant.command_delay}, "Stability of " + nominal.name,
            options_.picture);
     return json;
@@ -232,8 +241,8 @@ class Study {
     try {
       return study(variant);
     } catch (const InputError& error) {
-      static const std::set<std::string> kOfTheValue = {"singular_mass", "unreachable",  "singular_path",
-                                                        "crosses_branch", "over_limit", "angle_jumps"};
+      static const std::set<std::string> kOfTheValue = {"singular_mass",  "unreachable", "singular_path",
+                                                        "crosses_branch", "over_limit",  "angle_jumps"};
       if (!kOfTheValue.contains(error.code)) throw;
       return impossible(error.code, error.what());
     } catch (const RunFault& fault) {
@@ -267,7 +276,8 @@ class Study {
       json["confirmed"] = confirmation(experiment, plan, start, instants.sampling);
     if (contradicts(json["confirmed"])) {
       json["warnings"].push_back(
-          "a disturbance grows in the simulation where the linearised loop is stable, or decays where it isn't: the "
+          "a disturbance grows in the simulation where the linearised loop is stable, or decays where it "
+          "isn't: the "
           "plant's steps don't follow the plant");
       if (json["verdict"] != "unstable") json["verdict"] = "undecided";
     }
@@ -286,7 +296,11 @@ class Study {
 };
 
 int run(const StabilityLine& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  const ShownWork work(stop);
   const nlohmann::json result = Study(options).run();
+  const bool interrupted = result.contains("interrupted");
   if (options.json) {
     print_json(result);
   } else {
@@ -294,7 +308,12 @@ int run(const StabilityLine& options) {
                result["experiment"].get<std::string>(), result["tick"].get<double>() * 1e3,
                result["command_delay"].get<double>() * 1e3, result["control"].get<std::string>());
     for (const auto& one : result["cases"]) print(one);
-    if (!options.picture.empty()) fmt::print("\ndrawn in {}\n", options.picture);
+    if (!options.picture.empty() && !interrupted) fmt::print("\ndrawn in {}\n", options.picture);
+  }
+  if (interrupted) {
+    if (!options.json)
+      fmt::print(stderr, "mixloop: interrupted; the cases that are not told were not looked at\n");
+    return kInterrupted;
   }
   const auto& verdict = result["cases"][0]["verdict"];
   return verdict == "stable" || verdict == "marginal" ? kHeld : kMissed;
@@ -329,7 +348,8 @@ void add_stability_command(CLI::App& app, int& status) {
       "where\n"
       "an eigenvalue leaves the unit circle, each confirmed by simulating a disturbance on both sides of "
       "it.\n"
-      "Marginal is what neither grows nor decays, to rounding; unstable also what grows by the plant's own steps.\n"
+      "Marginal is what neither grows nor decays, to rounding; unstable also what grows by the plant's own "
+      "steps.\n"
       "Exit status 0 where the experiment as it stands is stable or marginal all along, 1 where it isn't.\n"
       "Examples:\n"
       "  mixloop stability experiments/paper.yaml --picture stability.svg\n"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "loop/plant_probe.hpp"
 
+#include "notation/long_work.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -17,9 +19,8 @@ ActuatorSettings friction_alone(const ActuatorSettings& settings) {
 PlantProbe::PlantProbe(const std::shared_ptr<const Scene>& scene, const std::vector<double>& parameters,
                        const ActuatorSettings& actuators, Evaluation how)
     : scene_(scene),
-      dynamics_(equations_of(
-                    scene, how,
-                    {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::linearisation}),
+      dynamics_(equations_of(scene, how,
+                             {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::linearisation}),
                 parameters),
       n_(scene->n()),
       n_u_(scene->n_u()),
@@ -64,6 +65,7 @@ void PlantProbe::linearise(const PlantPose& pose, double t, const Vector& x,
 }
 
 Matrix PlantProbe::state_matrix(const PlantPose& pose) {
+  work_goes_on();
   AccelerationJacobian<double> jacobian;
   linearise(pose, pose.t, pose.x, jacobian);
   Matrix A = Matrix::Zero(2 * n_, 2 * n_);
@@ -74,6 +76,7 @@ Matrix PlantProbe::state_matrix(const PlantPose& pose) {
 }
 
 Vector PlantProbe::advanced(Integrator<>& integrator, const PlantPose& pose, double length) {
+  work_goes_on();
   Vector x = pose.x;
   integrator.advance(
       x, length,

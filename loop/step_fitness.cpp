@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "dynamics/procedure/decompositions.hpp"
+#include "notation/long_work.hpp"
 
 namespace mixloop {
 namespace {
@@ -24,6 +25,7 @@ Matrix map_of_tick(const IntegratorSettings& steps, const Matrix& A, double tick
   Integrator integrator({steps.method, steps.substeps, 0}, n, 2 * n);
   Matrix map = Matrix::Identity(2 * n, 2 * n);
   for (Eigen::Index column = 0; column < 2 * n; ++column) {
+    work_goes_on();
     Vector x = map.col(column);
     integrator.advance(
         x, tick, [&](int, int, double, const Vector& at, Vector& dx) { dx = A * at; },
@@ -35,8 +37,8 @@ Matrix map_of_tick(const IntegratorSettings& steps, const Matrix& A, double tick
   return map;
 }
 
-/// How far a motion that is multiplied by `step` a tick falls from one that is by `truth`, within so many ticks: in
-/// amplitudes that it starts with, of one that grows in those that it has.
+/// How far a motion that is multiplied by `step` a tick falls from one that is by `truth`, within so many
+/// ticks: in amplitudes that it starts with, of one that grows in those that it has.
 double largest_error(const Complex& step, const Complex& truth, std::int64_t ticks) {
   double largest = 0;
   Complex by_steps = step, in_truth = truth;
@@ -50,8 +52,8 @@ double largest_error(const Complex& step, const Complex& truth, std::int64_t tic
   return largest;
 }
 
-/// The eigenvalue of the method's map that stands for a motion of the plant's own: of a Runge-Kutta method the one
-/// of the same eigenvector, of the others the nearest to what the map makes of that.
+/// The eigenvalue of the method's map that stands for a motion of the plant's own: of a Runge-Kutta method
+/// the one of the same eigenvector, of the others the nearest to what the map makes of that.
 Complex take_value(std::vector<Complex>& among, const Matrix& map, const Vec<Complex>& motion) {
   const Complex made = motion.dot(map * motion);
   const auto nearest = std::min_element(among.begin(), among.end(), [&](const Complex& a, const Complex& b) {
@@ -77,7 +79,8 @@ Misfit worst_motion(const IntegratorSettings& steps, const StepTask& task, const
     const Complex pole = own.values[i], truth = std::exp(pole * task.tick),
                   step = finite ? take_value(by_steps, map, own.vectors.col(i)) : Complex(HUGE_VAL);
     const double error = largest_error(step, truth, task.ticks);
-    if (const double here = largest_error(step, truth, 1); !(here <= worst.tick_error)) worst.tick_error = here;
+    if (const double here = largest_error(step, truth, 1); !(here <= worst.tick_error))
+      worst.tick_error = here;
     // Of what is lost as a whole, the fastest motion is what it is lost by.
     if (error > worst.error || (!finite && std::abs(pole) > std::abs(worst.pole)))
       worst = {plant.t, pole, step, truth, error, worst.tick_error};
@@ -106,8 +109,9 @@ std::string fate_text(const Misfit& misfit) {
   if (!std::isfinite(step)) return "is lost: the method's equations have no solution by iteration";
   if (misfit.grows())
     return fmt::format("grows {:.4g}-fold a tick; in truth it {}", step,
-                       truth > 1 ? fmt::format("grows {:.4g}-fold", truth)
-                                 : truth > 1 - 1e-9 ? "stays" : fmt::format("shrinks to {:.3g}", truth));
+                       truth > 1          ? fmt::format("grows {:.4g}-fold", truth)
+                       : truth > 1 - 1e-9 ? "stays"
+                                          : fmt::format("shrinks to {:.3g}", truth));
   return fmt::format("is off by {:.3g} % of its amplitude within the run",
                      std::min(100 * misfit.error, 200.0));
 }
@@ -162,10 +166,11 @@ std::string describe(const Misfit& misfit, const IntegratorSettings& steps, cons
     remedy = fmt::format("plant.substeps: {}", same->substeps);
   if (other) remedy += (remedy.empty() ? "" : ", or ") + setting_text(*other);
   if (remedy.empty()) remedy = "a higher rate, or a plant that is less stiff";
-  return fmt::format("{} with {} step{} a tick of {:.4g} ms is too coarse for the plant itself: at {:.4g} s {} {}; "
-                     "expected {}",
-                     facts(steps.method).name, steps.substeps, steps.substeps == 1 ? "" : "s", 1e3 * task.tick,
-                     misfit.t, pole_text(misfit.pole), fate_text(misfit), remedy);
+  return fmt::format(
+      "{} with {} step{} a tick of {:.4g} ms is too coarse for the plant itself: at {:.4g} s {} {}; "
+      "expected {}",
+      facts(steps.method).name, steps.substeps, steps.substeps == 1 ? "" : "s", 1e3 * task.tick, misfit.t,
+      pole_text(misfit.pole), fate_text(misfit), remedy);
 }
 
 }  // namespace mixloop

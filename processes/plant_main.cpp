@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 
+#include "notation/long_work.hpp"
 #include "processes/keep.hpp"
 #include "processes/plant_session.hpp"
 #include "runtime/protocol/session.hpp"
@@ -16,6 +17,7 @@ namespace {
 int run(const PlantLine& line) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const WorkWatch watch([&] { return stop.turned(); });
   Experiment loaded = line.load();
   loaded.plant.faults.injected = line.allow_faults;
   const Plan plan = make_plan(loaded);
