@@ -22,6 +22,7 @@ int run(const PeerLine& line) {
   ControllerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()),
                       controller_side(controller, experiment, plan));
   line.take_rights("mixloop-controller", line.session == 0);
+  if (line.session == 0) line.say_waiting("mixloop-controller", "a plant", "STATE");
   return ended("mixloop-controller", peer.run(), peer.report(), stop);
 }
 

@@ -36,6 +36,7 @@ int run(const PeerLine& line) {
   PlannerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()), std::move(side));
   // A state wakes controller and planner at once, and only the controller's answer is waited for.
   line.take_rights("mixloop-planner", line.session == 0, 1);
+  if (line.session == 0) line.say_waiting("mixloop-planner", "a plant", "STATE");
   return ended("mixloop-planner", peer.run(), peer.report(), stop);
 }
 

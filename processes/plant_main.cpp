@@ -25,6 +25,7 @@ int run(const PlantLine& line) {
   ReportLine report(line.report_fd);
   if (!line.out.empty()) prepare_folder(line.out);
   Bus bus(line.bus);
+  if (line.report_fd < 0) line.say_waiting("mixloop-plant", "a controller and a planner", "COMMAND");
   for (std::int64_t session = line.session;;) {
     PlantSession plant(line, experiment, plan, report);
     const std::int64_t next = draw_session();
