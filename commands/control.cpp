@@ -13,6 +13,7 @@
 #include "plant/faults.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/speed.hpp"
+#include "runtime/protocol/real_time_plant.hpp"
 
 namespace mixloop {
 namespace {
@@ -55,15 +56,21 @@ class PlantSought {
                          "; is it in the same network namespace, with the same --channel-prefix?");
     return *heard_;
   }
+  bool real_time() const { return real_time_; }  ///< it keeps
 
  private:
   void on_state(Bytes bytes) {
     const auto header = peek(bytes);
-    if (header && header->n > 0 && header->session != 0) heard_ = header;
+    if (!header || header->n < 1 || header->session == 0) return;
+    state_t state;
+    if (!decode(bytes, state)) return;
+    heard_ = header;
+    real_time_ = (state.flags & state_t::FLAG_REAL_TIME) != 0;
   }
 
   std::string channel_;
   std::optional<Header> heard_;
+  bool real_time_ = false;
 };
 
 int send(const ControlLine& options, std::int8_t action, double speed) {
@@ -72,6 +79,7 @@ int send(const ControlLine& options, std::int8_t action, double speed) {
   Bus bus(options.bus);
   PlantSought plant(bus);
   const Header heard = plant.wait(bus, nanoseconds(static_cast<std::int64_t>(options.patience * 1e9)), stop);
+  if (action == sim_control_t::ACTION_SPEED && plant.real_time()) require_real_time_speed(speed);
   Outbox<sim_control_t> control(heard.n);
   Header header = heard;
   header.utime = 0;

@@ -35,7 +35,7 @@ PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& optio
       plant_(plant),
       state_flags_(state_flags | (options.hold ? state_t::FLAG_HOLD : 0)),
       pacer_(options.rate_hz, options.speed, slack),
-      conductor_(options.n, options_.session, options.paused),
+      conductor_(options.n, options_.session, options.paused, (state_flags & state_t::FLAG_REAL_TIME) != 0),
       state_(options.n),
       truth_(options.n),
       control_(options.n),

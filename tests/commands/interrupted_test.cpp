@@ -6,6 +6,7 @@
 
 #include "tests/support/command.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/terminal.hpp"
 
 namespace mixloop {
 namespace {
@@ -50,6 +51,22 @@ TEST(Interrupted, WhilePlanningEveryCommandEnds) {
     EXPECT_EQ(interrupted(command, milliseconds(400)), 130);
     EXPECT_THAT(command.out() + command.err(), HasSubstr("interrupted"));
   }
+}
+
+TEST(Interrupted, PlanningSaysOnATerminalHowFarItIs) {
+  Terminal screen(line({"simulate", experiment("paper")}, kLongPlan), {"TERM=vt100"}, 24, 80);
+  EXPECT_TRUE(screen.shows("planning the path: ")) << screen.screen();
+  screen.type("\x03");  // Ctrl-C
+  EXPECT_EQ(screen.wait(kSoon), 130);
+  EXPECT_THAT(screen.screen(), HasSubstr("interrupted while planning the path"));
+}
+
+TEST(Interrupted, ARunWhoseProcessesStillPlanEndsThemToo) {
+  Command command(line({"run", experiment("paper")}, {"--set", "path.duration=1000 s"}));
+  ASSERT_TRUE(eventually([&] { return command.children().size() == 3; })) << command.err();
+  const auto children = command.children();
+  EXPECT_EQ(interrupted(command, milliseconds(100)), 130) << command.out() << command.err();
+  for (const int pid : children) EXPECT_NE(kill(pid, 0), 0) << "left behind";
 }
 
 TEST(Interrupted, WhilePlanningTheProcessesEnd) {
