@@ -12,7 +12,10 @@
 #include "dynamics/equations.hpp"
 #include "dynamics/program/firmware.hpp"
 #include "dynamics/scene/load_scene.hpp"
+#include "loop/result.hpp"
+#include "notation/long_work.hpp"
 #include "processes/command_line.hpp"
+#include "report/progress.hpp"
 
 namespace mixloop {
 namespace {
@@ -47,24 +50,38 @@ int write_source(const CompileLine& options, const std::shared_ptr<const Scene>&
   return 0;
 }
 
+/// Builds one program; how that went.
+nlohmann::json built(const std::shared_ptr<const Scene>& scene, Purpose purpose) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto equations = equations_of(scene, Evaluation::machine_code, {purpose});
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  say_complaint(equations->complaint());
+  return {{"evaluation", name_of(equations->evaluation())}, {"seconds", seconds}};
+}
+
+/// What is built before an interruption stays in the cache, and is told.
 int build(const CompileLine& options, const std::shared_ptr<const Scene>& scene) {
-  nlohmann::json built;
-  for (Purpose purpose : purposes_of(options)) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto equations = equations_of(scene, Evaluation::machine_code, {purpose});
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    say_complaint(equations->complaint());
-    built[std::string(name_of(purpose))] = {{"evaluation", name_of(equations->evaluation())},
-                                            {"seconds", seconds}};
-    if (!options.json)
-      fmt::print("{:<26}{:<14}{:8.1f} ms\n", name_of(purpose), name_of(equations->evaluation()),
-                 1e3 * seconds);
+  auto all = nlohmann::json::object();
+  int status = kHeld;
+  try {
+    for (Purpose purpose : purposes_of(options)) {
+      const auto& one = all[std::string(name_of(purpose))] = built(scene, purpose);
+      if (!options.json)
+        fmt::print("{:<26}{:<14}{:8.1f} ms\n", name_of(purpose), one["evaluation"].get<std::string>(),
+                   1e3 * one["seconds"].get<double>());
+    }
+  } catch (const Interrupted& interrupted) {
+    if (!options.json) throw;
+    status = kInterrupted;
   }
-  if (options.json) print_json(built);
-  return 0;
+  if (options.json) print_json(all);
+  return status;
 }
 
 int run(const CompileLine& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  const ShownWork work(stop);
   const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
   return options.emit.empty() ? build(options, scene) : write_source(options, scene);
 }

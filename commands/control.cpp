@@ -4,19 +4,26 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
 #include "notation/errors.hpp"
+#include "notation/long_work.hpp"
 #include "plant/faults.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/speed.hpp"
+#include "runtime/protocol/real_time_plant.hpp"
 
 namespace mixloop {
 namespace {
 
-/// fault_t's targets and kinds, in their order.
-const std::vector<std::string> kTargets = {"motor", "sensor", "payload", "friction"};
+/// fault_t's targets and kinds. The payload is a parameter, found by its name.
+const std::map<std::string, std::int8_t> kTargets = {{"motor", fault_t::TARGET_MOTOR},
+                                                     {"sensor", fault_t::TARGET_SENSOR},
+                                                     {"parameter", fault_t::TARGET_PARAMETER},
+                                                     {"payload", fault_t::TARGET_PAYLOAD},
+                                                     {"friction", fault_t::TARGET_FRICTION}};
 const std::vector<std::string> kKinds(Fault::kKinds.begin(), Fault::kKinds.end());
 
 struct ControlLine {
@@ -27,7 +34,8 @@ struct ControlLine {
   std::string speed;
   std::string target, kind;
   int index = 0;
-  double magnitude = 0, duration = 0;
+  std::optional<double> magnitude;
+  double duration = 0;
 };
 
 /// Hears which plant there is, so that it can be told something.
@@ -41,21 +49,28 @@ class PlantSought {
   const Header& wait(Bus& bus, nanoseconds patience, const StopSwitch& stop) {
     for (const Instant until = now() + patience; !heard_ && now() < until && !stop.turned();)
       bus.wait(until, stop);
+    if (stop.turned()) throw Interrupted("interrupted");
     if (!heard_)
       throw RunFault("lost_peer",
                      "no plant is heard on " + channel_ +
                          "; is it in the same network namespace, with the same --channel-prefix?");
     return *heard_;
   }
+  bool real_time() const { return real_time_; }  ///< it keeps
 
  private:
   void on_state(Bytes bytes) {
     const auto header = peek(bytes);
-    if (header && header->n > 0 && header->session != 0) heard_ = header;
+    if (!header || header->n < 1 || header->session == 0) return;
+    state_t state;
+    if (!decode(bytes, state)) return;
+    heard_ = header;
+    real_time_ = (state.flags & state_t::FLAG_REAL_TIME) != 0;
   }
 
   std::string channel_;
   std::optional<Header> heard_;
+  bool real_time_ = false;
 };
 
 int send(const ControlLine& options, std::int8_t action, double speed) {
@@ -64,6 +79,7 @@ int send(const ControlLine& options, std::int8_t action, double speed) {
   Bus bus(options.bus);
   PlantSought plant(bus);
   const Header heard = plant.wait(bus, nanoseconds(static_cast<std::int64_t>(options.patience * 1e9)), stop);
+  if (action == sim_control_t::ACTION_SPEED && plant.real_time()) require_real_time_speed(speed);
   Outbox<sim_control_t> control(heard.n);
   Header header = heard;
   header.utime = 0;
@@ -82,34 +98,96 @@ int send(const ControlLine& options, std::int8_t action, double speed) {
   return kHeld;
 }
 
+/// The message, as far as the line says it. Throws InputError where no plant could take it.
+fault_t fault_on(const ControlLine& options) {
+  fault_t fault{};
+  fault.target = kTargets.at(options.target);
+  fault.kind =
+      static_cast<std::int8_t>(std::find(kKinds.begin(), kKinds.end(), options.kind) - kKinds.begin());
+  fault.index = options.index - 1;
+  fault.magnitude = options.magnitude.value_or(0);
+  fault.duration = options.duration;
+  const auto kind = static_cast<Fault::Kind>(fault.kind);
+  const auto refuse = [](const char* option, const std::string& why) {
+    throw InputError("out_of_range", {option}, why);
+  };
+  if (options.target == "parameter" && options.index == 0)
+    refuse("--index", "a parameter is meant by its number; expected --index 1 or more, in the scene's order");
+  if (has_magnitude(kind) && !options.magnitude)
+    refuse("--magnitude",
+           "kind " + options.kind + " says nothing without one; expected --magnitude X, in SI");
+  if (!has_magnitude(kind) && options.magnitude)
+    refuse("--magnitude", "kind " + options.kind + " has none; expected it without");
+  const Fault meant{.target = static_cast<Fault::Target>(fault.target),
+                    .kind = kind,
+                    .index = options.target == "payload" ? std::max(fault.index, 0) : fault.index,
+                    .magnitude = fault.magnitude,
+                    .duration = fault.duration};
+  if (const char* reason = objection(meant, 1)) refuse("control fault", reason);
+  return fault;
+}
+
+/// Hears what the plant makes of a fault.
+class FaultAnswer {
+ public:
+  FaultAnswer(Bus& bus, const fault_t& fault) : fault_(fault), inbox_(fault.n) {
+    bus.subscribe<&FaultAnswer::on_fault>(bus.channel("FAULT"), this);
+  }
+
+  /// KIND_TAKEN, KIND_REFUSED or KIND_NOT_ALLOWED; nothing where no answer comes.
+  std::optional<std::int8_t> wait(Bus& bus, const StopSwitch& stop) {
+    for (const Instant until = now() + kAnswerWait; !heard_ && now() < until && !stop.turned();)
+      bus.wait(until, stop);
+    return heard_;
+  }
+
+ private:
+  static constexpr auto kAnswerWait = std::chrono::milliseconds(500);
+
+  void on_fault(Bytes bytes) {
+    if (inbox_.read(bytes)) return;
+    const fault_t& m = inbox_.message;
+    if (m.session == fault_.session && m.seq == fault_.seq && m.kind < fault_t::KIND_NONE) heard_ = m.kind;
+  }
+
+  const fault_t& fault_;
+  Inbox<fault_t> inbox_;
+  std::optional<std::int8_t> heard_;
+};
+
+std::string what_became_of(std::optional<std::int8_t> answer) {
+  if (answer == fault_t::KIND_TAKEN) return "which has taken it";
+  if (answer == fault_t::KIND_NOT_ALLOWED) return "which does not obey: start it with --allow-faults";
+  return "which does not say what it made of it";
+}
+
 int send_fault(const ControlLine& options) {
+  const fault_t meant = fault_on(options);
   StopSwitch stop;
   stop.turn_on_signals();
   Bus bus(options.bus);
   PlantSought plant(bus);
-  const Header heard = plant.wait(bus, nanoseconds(static_cast<std::int64_t>(options.patience * 1e9)), stop);
-  const auto index = [](const auto& words, const std::string& word) {
-    return static_cast<std::int8_t>(std::find(words.begin(), words.end(), word) - words.begin());
-  };
-  Outbox<fault_t> fault(heard.n);
-  Header header = heard;
+  Header header = plant.wait(bus, nanoseconds(static_cast<std::int64_t>(options.patience * 1e9)), stop);
+  const std::int64_t tick = header.seq;
+  Outbox<fault_t> fault(header.n);
+  fault.message = meant;
   header.utime = 0;
   // The clock is a count that grows from call to call.
   header.seq = std::chrono::duration_cast<std::chrono::microseconds>(now()).count();
   set_header(fault.message, header);
-  fault.message.target = index(kTargets, options.target);
-  fault.message.kind = index(kKinds, options.kind);
-  fault.message.index = options.index - 1;
-  fault.message.magnitude = options.magnitude;
-  fault.message.duration = options.duration;
+  FaultAnswer heard(bus, fault.message);
   fault.encode();
   for (int i = 0; i < 3; ++i) bus.publish(bus.channel("FAULT"), fault.encoded());
+  const auto answer = heard.wait(bus, stop);
+  if (answer == fault_t::KIND_REFUSED)
+    throw RunFault("refused", fmt::format("the plant of session {} refused it, at tick {}: what "
+                                          "mixloop-plant (or mixloop run) prints says why",
+                                          header.session, tick));
   if (options.json)
-    print_json({{"session", heard.session}, {"tick", heard.seq}});
+    print_json({{"session", header.session}, {"tick", tick}, {"taken", answer == fault_t::KIND_TAKEN}});
   else
-    fmt::print(
-        "sent to the plant of session {}, at tick {}; it obeys if it was started with --allow-faults\n",
-        heard.session, heard.seq);
+    fmt::print("sent to the plant of session {}, at tick {}, {}\n", header.session, tick,
+               what_became_of(answer));
   return kHeld;
 }
 
@@ -158,15 +236,20 @@ void add_control_command(CLI::App& app, int& status) {
       [options] { return send_stop(*options); });
   auto* fault = add("fault", "something goes wrong in the plant, or is well again (kind none)",
                     [options] { return send_fault(*options); });
-  fault->add_option("target", options->target, "motor, sensor, payload or friction")
+  fault->add_option("target", options->target, "motor, sensor, parameter, payload (a parameter) or friction")
       ->required()
       ->check(CLI::IsMember(kTargets));
   fault
       ->add_option("kind", options->kind,
-                   "none, off, stuck, garbage, wrong, slow, delayed, intermittent; changed")
+                   "none, off, stuck, garbage, wrong, slow, delayed, intermittent of motors and sensors; "
+                   "changed, none "
+                   "of the others")
       ->required()
       ->check(CLI::IsMember(kKinds));
-  fault->add_option("--index", options->index, "which motor, sensor or parameter, from 1; 0: all")
+  fault
+      ->add_option("--index", options->index,
+                   "which motor, sensor or parameter, from 1 in the scene's order; 0: all motors or sensors, "
+                   "the parameter that is called payload")
       ->check(CLI::Range(0, 1000));
   fault->add_option("--magnitude", options->magnitude, "in SI, as docs/experiments.md says of the kind");
   fault->add_option("--for", options->duration, "seconds of plant time; 0: until healed")
@@ -175,7 +258,8 @@ void add_control_command(CLI::App& app, int& status) {
       "Sends SIM_CONTROL (or STOP) to the plant whose STATE is heard; docs/messages.md says what each does.\n"
       "Example:\n"
       "  mixloop run experiments/paper.yaml --realtime --paused &\n"
-      "  mixloop control step 10; mixloop control resume");
+      "  mixloop control step 10; mixloop control resume\n"
+      "  mixloop control fault payload changed --magnitude 2     # of a run with --allow-faults");
 }
 
 }  // namespace mixloop

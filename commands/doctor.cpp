@@ -9,7 +9,9 @@
 
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
+#include "notation/long_work.hpp"
 #include "processes/bus_line.hpp"
+#include "report/progress.hpp"
 #include "runtime/machine/fitness.hpp"
 
 namespace mixloop {
@@ -26,6 +28,9 @@ const char* name_of(Fitness verdict) {
 }
 
 int run(const DoctorLine& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  const ShownWork work(stop);
   const nanoseconds span(static_cast<std::int64_t>(options.seconds * 1e9));
   const std::vector<std::function<Finding()>> checks = {
       [&] { return multicast_finding(options.bus); },
@@ -38,10 +43,16 @@ int run(const DoctorLine& options) {
       [&] { return round_trip_finding(options.bus, span); },
       [&] { return publishers_finding(options.bus, std::min<nanoseconds>(span, std::chrono::seconds(1))); },
   };
-  bool fit = true;
+  bool fit = true, interrupted = false;
   auto findings = nlohmann::json::array();
   for (const auto& check : checks) {
-    const Finding finding = check();
+    Finding finding;
+    try {
+      finding = check();
+    } catch (const Interrupted&) {
+      interrupted = true;
+      break;
+    }
     fit = fit && finding.verdict != Fitness::bad;
     findings.push_back({{"what", finding.what},
                         {"value", finding.value},
@@ -53,10 +64,12 @@ int run(const DoctorLine& options) {
     std::fflush(stdout);
   }
   if (options.json)
-    print_json({{"fit", fit}, {"findings", findings}});
+    print_json({{"fit", fit && !interrupted}, {"findings", findings}});
+  else if (interrupted)
+    fmt::print(stderr, "mixloop: interrupted; the rest was not looked at\n");
   else
     fmt::print("{}\n", fit ? "1 kHz will hold here." : "1 kHz will NOT hold here: see what is BAD.");
-  return fit ? kHeld : kMissed;
+  return interrupted ? kInterrupted : fit ? kHeld : kMissed;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "loop/experiment.hpp"
 #include "notation/value.hpp"
 #include "processes/command_line.hpp"
+#include "report/progress.hpp"
 
 namespace mixloop {
 namespace {
@@ -83,6 +84,9 @@ void print_lines(const nlohmann::json& value, const std::string& name) {
 }
 
 int run(const DynamicsLine& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  const ShownWork work(stop);
   const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
   const auto json = evaluated(options, scene);
   if (options.json) {

@@ -8,6 +8,7 @@
 #include "commands/commands.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "processes/command_line.hpp"
+#include "report/progress.hpp"
 
 namespace mixloop {
 namespace {
@@ -56,6 +57,9 @@ void print_table(const Explanation& explanation) {
 }
 
 int run(const ExplainLine& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  const ShownWork work(stop);
   const auto scene = std::make_shared<const Scene>(load_scene(options.scene, options.overrides()));
   const Explanation explanation = explain(scene);
   if (options.json)

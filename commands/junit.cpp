@@ -13,13 +13,16 @@ void write_junit(const std::string& file, std::span<const Result> results) {
   auto* suite = document.NewElement("testsuite");
   document.InsertEndChild(suite);
   suite->SetAttribute("name", "mixloop track");
-  int failures = 0, errors = 0;
+  int failures = 0, errors = 0, skipped = 0;
   for (const auto& result : results) {
     auto* test = suite->InsertNewChildElement("testcase");
     test->SetAttribute("classname", "mixloop.track");
     test->SetAttribute("name", result.experiment.c_str());
     test->SetAttribute("time", result.run ? result.run->wall_time : 0.0);
-    if (result.error) {
+    if (result.error && result.judged.verdict == Verdict::interrupted) {
+      ++skipped;
+      test->InsertNewChildElement("skipped")->SetAttribute("message", result.error->message.c_str());
+    } else if (result.error) {
       ++errors;
       auto* element = test->InsertNewChildElement("error");
       element->SetAttribute("type", result.error->code.c_str());
@@ -28,6 +31,7 @@ void write_junit(const std::string& file, std::span<const Result> results) {
       ++failures;
       auto* element = test->InsertNewChildElement("failure");
       std::string message;
+      if (result.judged.verdict == Verdict::interrupted) message = "interrupted";
       for (const auto& line : result.judged.missed) message += (message.empty() ? "" : "; ") + line;
       element->SetAttribute("message", message.c_str());
     }
@@ -35,6 +39,7 @@ void write_junit(const std::string& file, std::span<const Result> results) {
   suite->SetAttribute("tests", static_cast<int>(results.size()));
   suite->SetAttribute("failures", failures);
   suite->SetAttribute("errors", errors);
+  suite->SetAttribute("skipped", skipped);
   if (document.SaveFile(file.c_str()) != tinyxml2::XML_SUCCESS)
     throw RunFault("cannot_write", "cannot write " + file);
 }

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <optional>
 
+#include "commands/awaited.hpp"
 #include "commands/children.hpp"
 #include "commands/warnings.hpp"
 #include "loop/inputs.hpp"
@@ -43,7 +44,9 @@ class Run {
       throw RunFault("cannot_start", std::string("no pipe: ") + std::strerror(errno));
     report_ = ends[0];
     fcntl(report_, F_SETFL, O_NONBLOCK);
-    const std::int64_t session = draw_session();
+    // A stranger's plant draws its own, and the others take that.
+    const std::int64_t session = absent("plant") ? 0 : draw_session();
+    if (!launch.without.empty() && !launch.quiet) awaited_.emplace(launch, session);
     children_.reserve(launch.order.size());
     for (const auto& name : launch.order)
       if (!absent(name))
@@ -58,6 +61,7 @@ class Run {
     while (
         std::any_of(children_.begin(), children_.end(), [](const Child& child) { return child.running(); })) {
       wait_for_news();
+      if (awaited_ && !stopping_ && !awaited_->look()) awaited_.reset();
       read_report();
       for (auto& child : children_) hear(child);
       order_stop_where_asked();
@@ -84,6 +88,8 @@ class Run {
                                       launch_.bus.prefix,
                                       "--patience",
                                       fmt::format("{}", launch_.patience),
+                                      "--first-wait",
+                                      fmt::format("{}", launch_.first_wait),
                                       "--evaluation",
                                       std::string(name_of(launch_.evaluation))};
     for (const auto& set : launch_.sets) words.insert(words.end(), {"--set", set});
@@ -142,10 +148,15 @@ class Run {
     if (!deadline_) deadline_ = now() + kGrace;
     // Peers leave after the plant; one that leaves before it, or by a signal, takes the others along.
     const bool early = child.name() != "plant" && !stopping_ && !result_;
-    const bool failed =
-        child.killed_by() != 0 || (early && child.exit_status() != 0 && child.exit_status() != kInterrupted);
+    // Our own signal may have met it before it could heed one.
+    const bool by_us = stopping_ && (child.killed_by() == SIGINT || child.killed_by() == SIGTERM);
+    const bool killed = child.killed_by() != 0 && !by_us;
+    const bool failed = killed || (early && child.exit_status() != 0 && child.exit_status() != kInterrupted);
     if (failed && !first_failure_) first_failure_ = &child;
-    if (child.killed_by() != 0 || early) order_stop(child.killed_by() != 0 ? SIGTERM : 0);
+    if (killed || early) order_stop(killed ? SIGTERM : 0);
+    // A plant that was stopped before it had anything told nobody.
+    if (stopped_ && child.name() == "plant" && !result_)
+      for (const auto& other : children_) other.signal(SIGINT);
   }
 
   void order_stop_where_asked() {
@@ -181,15 +192,15 @@ class Run {
 
   Result verdict() {
     if (first_failure_) throw_failure(*first_failure_);
+    if (stopped_ && !result_)
+      return {.judged = {.verdict = Verdict::interrupted, .exit_status = kInterrupted}};
     for (const auto& child : children_)
       if (child.name() == "plant" && !result_) throw_failure(child);
     for (const auto& child : children_)
       if (child.name() == "plant" && child.exit_status() == kRunFault &&
           !result_->run->measures.diverged_at && !result_->run->measures.safe_at)
         throw_failure(child);
-    if (result_) return *result_;
-    if (stopped_) return {.judged = {.verdict = Verdict::interrupted, .exit_status = kInterrupted}};
-    return {};
+    return result_.value_or(Result{});
   }
 
   [[noreturn]] static void throw_failure(const Child& child) {
@@ -206,6 +217,7 @@ class Run {
   const StopSwitch& stop_;
   const std::function<void(const Result&)>& at_end_;
   Progress progress_;
+  std::optional<Awaited> awaited_;
   std::vector<Child> children_;
   int report_ = -1;
   bool reported_all_ = false;

@@ -25,8 +25,9 @@ struct Launch {
   bool hold = false;
   bool truth = false;
   bool allow_faults = false;
-  bool quiet = false;    ///< no progress, no notes
-  double patience = 10;  ///< s
+  bool quiet = false;      ///< no progress, no notes
+  double patience = 10;    ///< s
+  double first_wait = 60;  ///< s, for all to be there
   Evaluation evaluation = Evaluation::machine_code;
 };
 

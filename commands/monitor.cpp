@@ -11,6 +11,7 @@
 #include "commands/screen.hpp"
 #include "loop/result.hpp"
 #include "processes/bus_line.hpp"
+#include "report/progress.hpp"
 #include "runtime/bus/bus.hpp"
 #include "watch/watch.hpp"
 #include "watch/watch_text.hpp"
@@ -104,6 +105,7 @@ int on_screen(const MonitorLine& options, Watch& watch, Bus& bus, const StopSwit
 int run(const MonitorLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const ShownWork work(stop);
   Watch watch = make_watch(options);
   Bus bus(options.bus);
   const MonitorListener listener(bus, watch);

@@ -149,6 +149,7 @@ int tell(const Replayed& replayed, const std::string& damage, bool json) {
 int run(const ReplayLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const ShownWork work(stop);
   Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
   experiment.evaluation = options.evaluation;
   const Plan plan = make_plan(experiment);

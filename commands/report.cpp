@@ -12,6 +12,7 @@
 #include "commands/log_options.hpp"
 #include "commands/web_page.hpp"
 #include "report/page.hpp"
+#include "report/progress.hpp"
 
 namespace mixloop {
 namespace {
@@ -54,6 +55,9 @@ std::vector<ReportedRun> read_runs(ReportLine& options) {
 }
 
 int run(ReportLine& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  const ShownWork work(stop);
   const std::string page = web_page("report.html");
   std::vector<ReportedRun> runs = read_runs(options);
   const std::string text = report_page(page, runs, kMostBytes);

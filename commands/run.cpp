@@ -10,6 +10,7 @@
 #include "processes/result_json.hpp"
 #include "processes/speed.hpp"
 #include "processes/summary.hpp"
+#include "report/progress.hpp"
 #include "runtime/protocol/real_time_plant.hpp"
 
 namespace mixloop {
@@ -23,6 +24,7 @@ struct RunLine : CommonOptions {
 int run(RunLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const ShownWork work(stop);
   Launch& launch = options.launch;
   launch.sets = options.sets;
   launch.quiet = options.json;
@@ -82,7 +84,9 @@ void add_run_command(CLI::App& app, int& status) {
   command->add_flag("--hold", launch.hold, "go on holding the end point until Ctrl-C");
   command->add_flag("--truth", launch.truth, "publish TRUTH, which no controller may read");
   command->add_flag("--allow-faults", launch.allow_faults, "obey FAULT messages: mixloop control fault");
-  command->add_option("--without", launch.without, "do not launch this one: a stranger's is used")
+  command
+      ->add_option("--without", launch.without,
+                   "do not launch this one: a stranger's is waited for; it is said how ours is started")
       ->check(CLI::IsMember({"plant", "controller", "planner"}))
       ->type_name("PROCESS");
   command->add_option("--order", launch.order, "in which order they are launched")
@@ -92,6 +96,8 @@ void add_run_command(CLI::App& app, int& status) {
       ->type_name("DIR");
   add_seconds_option(*command, "--patience", launch.patience,
                      "seconds without an answer after which a peer is lost, 10");
+  add_seconds_option(*command, "--first-wait", launch.first_wait,
+                     "seconds to wait for all to be there at the start, 60", 86400);
   add_evaluation_option(*command, launch.evaluation);
   command->footer(
       "LCM needs a multicast route; tools/in-namespace gives a command a network of its own that has one.\n"

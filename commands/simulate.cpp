@@ -12,6 +12,7 @@
 #include "loop/arrivals.hpp"
 #include "loop/arrivals_file.hpp"
 #include "loop/review.hpp"
+#include "notation/long_work.hpp"
 #include "processes/command_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
@@ -49,7 +50,9 @@ Result simulated(Experiment loaded, const std::string& out, const StopSwitch& st
     simulate_arrivals(plant, arrivals, go_on);
   const double wall_time = std::chrono::duration<double>(now() - start).count();
   Result result = result_of(experiment, plant.recorder().measures(), "simulate", wall_time);
-  const auto afterwards = review(experiment, plan, plant.recorder());
+  const Uninterrupted whole;  // what there is is told and kept
+  const auto afterwards =
+      stop.turned() ? std::vector<std::string>() : review(experiment, plan, plant.recorder());
   say(afterwards, quiet);
   warnings.insert(warnings.end(), afterwards.begin(), afterwards.end());
   result.warnings = std::move(warnings);
@@ -69,6 +72,7 @@ struct SimulateLine : CommonOptions {
 int run(const SimulateLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const ShownWork work(stop);
   Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
   experiment.evaluation = options.evaluation;
   const Result result = simulated(experiment, options.out, stop, options.json, options.ages);

@@ -10,8 +10,10 @@
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
 #include "loop/review.hpp"
+#include "notation/long_work.hpp"
 #include "plant/hardware.hpp"
 #include "processes/command_line.hpp"
+#include "report/progress.hpp"
 #include "stability/confirmation.hpp"
 #include "stability/map.hpp"
 
@@ -204,12 +206,16 @@ class Study {
           "sensors, actuators and faults are left out: the limits are those of ideal hardware");
       if (!options_.json) fmt::print(stderr, "warning: {}\n", json["warnings"][0].get<std::string>());
     }
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-      say(fmt::format("case {} of {}: {}", i + 1, variants.size(), name_of(variants[i])));
-      json["cases"].push_back(i == 0 ? study(variants[i]) : study_if_possible(variants[i]));
+    try {
+      for (std::size_t i = 0; i < variants.size(); ++i) {
+        say(fmt::format("case {} of {}: {}", i + 1, variants.size(), name_of(variants[i])));
+        json["cases"].push_back(i == 0 ? study(variants[i]) : study_if_possible(variants[i]));
+      }
+    } catch (const Interrupted& interrupted) {
+      json["interrupted"] = interrupted.what();
     }
     say("");
-    if (!options_.picture.empty())
+    if (!options_.picture.empty() && !json.contains("interrupted"))
       draw(maps_, {1 / nominal.rate_hz, nominal.plant.command_delay}, "Stability of " + nominal.name,
            options_.picture);
     return json;
@@ -290,7 +296,11 @@ class Study {
 };
 
 int run(const StabilityLine& options) {
+  StopSwitch stop;
+  stop.turn_on_signals();
+  const ShownWork work(stop);
   const nlohmann::json result = Study(options).run();
+  const bool interrupted = result.contains("interrupted");
   if (options.json) {
     print_json(result);
   } else {
@@ -298,7 +308,12 @@ int run(const StabilityLine& options) {
                result["experiment"].get<std::string>(), result["tick"].get<double>() * 1e3,
                result["command_delay"].get<double>() * 1e3, result["control"].get<std::string>());
     for (const auto& one : result["cases"]) print(one);
-    if (!options.picture.empty()) fmt::print("\ndrawn in {}\n", options.picture);
+    if (!options.picture.empty() && !interrupted) fmt::print("\ndrawn in {}\n", options.picture);
+  }
+  if (interrupted) {
+    if (!options.json)
+      fmt::print(stderr, "mixloop: interrupted; the cases that are not told were not looked at\n");
+    return kInterrupted;
   }
   const auto& verdict = result["cases"][0]["verdict"];
   return verdict == "stable" || verdict == "marginal" ? kHeld : kMissed;

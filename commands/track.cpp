@@ -9,8 +9,10 @@
 #include "commands/junit.hpp"
 #include "commands/launched.hpp"
 #include "commands/simulated.hpp"
+#include "notation/long_work.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/result_json.hpp"
+#include "report/progress.hpp"
 
 namespace mixloop {
 namespace {
@@ -62,22 +64,27 @@ Result tracked_or_error(const std::string& file, const TrackLine& options, const
   const auto error = [&](const std::string& code, const std::string& message, const Place& place,
                          int status) -> Result {
     return {.experiment = std::filesystem::path(file).stem().string(),
-            .judged = {.verdict = Verdict::fault, .exit_status = status},
+            .judged = {.verdict = status == kInterrupted ? Verdict::interrupted : Verdict::fault,
+                       .exit_status = status},
             .error = {{.code = code, .message = message, .where = to_string(place)}}};
   };
+  if (stop.turned()) return error("interrupted", "interrupted before it began", {}, kInterrupted);
   try {
     return tracked(file, options, stop);
   } catch (const InputError& bad) {
     return error(bad.code, bad.message, bad.place, kBadInput);
   } catch (const RunFault& fault) {
     return error(fault.code, fault.what(), {}, kRunFault);
+  } catch (const Interrupted& interrupted) {
+    return error("interrupted", interrupted.what(), {}, kInterrupted);
   }
 }
 
 void print_line(const Result& result) {
   if (const auto& error = result.error; error && !result.run) {
-    fmt::print("error        {:<28} {}{}{}\n", result.experiment, error->where,
-               error->where.empty() ? "" : ": ", error->message);
+    fmt::print("{:<12} {:<28} {}{}{}\n",
+               result.judged.verdict == Verdict::interrupted ? "interrupted" : "error", result.experiment,
+               error->where, error->where.empty() ? "" : ": ", error->message);
     return;
   }
   const Measures& measures = result.run->measures;
@@ -93,10 +100,10 @@ void print_line(const Result& result) {
 int run(const TrackLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const ShownWork work(stop);
   std::vector<Result> results;
   int highest = kHeld;
   for (const auto& file : options.experiments) {
-    if (stop.turned()) break;
     results.push_back(tracked_or_error(file, options, stop));
     highest = std::max(highest, exit_status(results.back()));
     if (!options.json) print_line(results.back());

@@ -7,6 +7,7 @@
 #include "commands/log_options.hpp"
 #include "commands/web_page.hpp"
 #include "processes/bus_line.hpp"
+#include "report/progress.hpp"
 #include "view/bus_source.hpp"
 #include "view/log_source.hpp"
 #include "view/server.hpp"
@@ -41,6 +42,7 @@ std::unique_ptr<Source> source_of(ViewLine& options) {
 int run(ViewLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const ShownWork work(stop);
   const std::string page = web_page("view.html");
   const auto source = source_of(options);
   Server server(options.server, page);

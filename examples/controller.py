@@ -7,8 +7,11 @@ lcm-gen's own types (lcm-gen --python), over UDP multicast.
 """
 import os
 import re
+import select
 import socket
 import struct
+import sys
+import time
 
 from mixloop import command_t, reference_t, sim_control_t, state_t
 
@@ -33,10 +36,15 @@ class Bus:
         self.socket.settimeout(10)
 
     def receive(self):
-        datagram = self.socket.recv(65536)
-        magic, _ = struct.unpack_from(">II", datagram)
-        channel, _, data = datagram[8:].partition(b"\0")
-        return (channel.decode(), data) if magic == self.MAGIC else ("", b"")
+        """All that waits, oldest first; something must come within 10 s."""
+        datagrams = [self.socket.recv(65536)]
+        while select.select([self.socket], [], [], 0)[0]:
+            datagrams.append(self.socket.recv(65536))
+        for datagram in datagrams:
+            magic, _ = struct.unpack_from(">II", datagram)
+            channel, _, data = datagram[8:].partition(b"\0")
+            if magic == self.MAGIC:
+                yield channel.decode(), data
 
     def publish(self, channel, message):
         header = struct.pack(">II", self.MAGIC, self.number) + channel.encode() + b"\0"
@@ -44,8 +52,8 @@ class Bus:
         self.socket.sendto(header + message.encode(), self.address)
 
 
-def answer(bus, state, desired):
-    """STATE(k) by COMMAND(k); a repeated state gets the same answer."""
+def answer(state, desired):
+    """STATE(k) by COMMAND(k)."""
     command = command_t()
     command.n, command.utime, command.seq = state.n, state.utime, state.seq
     command.session, command.config = state.session, state.config
@@ -53,29 +61,56 @@ def answer(bus, state, desired):
         torque(i, state.psi_measured[i], state.psid_measured[i], desired.psi_desired[i], desired.psid_desired[i])
         for i in range(state.n)
     ]
-    bus.publish("MIXLOOP_COMMAND", command)
+    return command
+
+
+class Run:
+    """What was heard of one run, the first; of another one when that has been silent for a second."""
+
+    def __init__(self):
+        self.state, self.references, self.asked, self.done, self.heard = None, {}, False, False, 0
+
+    def take(self, channel, data):
+        if channel == "MIXLOOP_STATE":
+            self.take_state(state_t.decode(data))
+        elif channel == "MIXLOOP_REFERENCE":
+            reference = reference_t.decode(data)
+            if reference.n == 3 and (not self.state or reference.session == self.state.session):
+                self.references[reference.seq] = reference
+                self.references.pop(reference.seq - 10, None)
+        elif channel == "MIXLOOP_SIM_CONTROL":
+            control = sim_control_t.decode(data)
+            ours = self.state and control.session == self.state.session
+            self.done = self.done or (ours and control.action == sim_control_t.ACTION_END)
+
+    def take_state(self, state):
+        if state.n != 3:  # the law above is for three motors
+            return
+        now = time.monotonic()
+        if self.state and state.session == self.state.session:
+            if state.seq < self.state.seq:  # overtaken
+                return
+        elif self.state and now - self.heard < 1:  # another run on the same bus
+            return
+        self.state, self.asked, self.heard = state, True, now
 
 
 def main():
-    bus = Bus(os.environ.get("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667"))
-    state, references = None, {}
-    while True:
-        channel, data = bus.receive()
-        if channel == "MIXLOOP_STATE":
-            state = state_t.decode(data)
-        elif channel == "MIXLOOP_REFERENCE":
-            reference = reference_t.decode(data)
-            references[reference.seq] = reference
-            references.pop(reference.seq - 10, None)
-            if not state or reference.seq != state.seq:
-                continue
-        elif channel == "MIXLOOP_SIM_CONTROL" and sim_control_t.decode(data).action == sim_control_t.ACTION_END:
-            return
-        else:
+    bus, run, command = Bus(os.environ.get("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667")), Run(), None
+    while not run.done:
+        try:
+            for channel, data in bus.receive():
+                run.take(channel, data)
+        except TimeoutError:
+            sys.exit("no plant for 10 s")
+        # What the newest state has made late needs no answer.
+        desired = run.references.get(run.state.seq) if run.asked else None
+        if not desired or desired.session != run.state.session:
             continue
-        desired = references.get(state.seq) if state else None
-        if desired and state.n == 3 and desired.session == state.session:
-            answer(bus, state, desired)
+        if not command or (command.session, command.seq) != (run.state.session, run.state.seq):
+            command = answer(run.state, desired)
+        bus.publish("MIXLOOP_COMMAND", command)  # a repeated state gets the same bytes
+        run.asked = False
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "loop/plant_probe.hpp"
 
+#include "notation/long_work.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -63,6 +65,7 @@ void PlantProbe::linearise(const PlantPose& pose, double t, const Vector& x,
 }
 
 Matrix PlantProbe::state_matrix(const PlantPose& pose) {
+  work_goes_on();
   AccelerationJacobian<double> jacobian;
   linearise(pose, pose.t, pose.x, jacobian);
   Matrix A = Matrix::Zero(2 * n_, 2 * n_);
@@ -73,6 +76,7 @@ Matrix PlantProbe::state_matrix(const PlantPose& pose) {
 }
 
 Vector PlantProbe::advanced(Integrator<>& integrator, const PlantPose& pose, double length) {
+  work_goes_on();
   Vector x = pose.x;
   integrator.advance(
       x, length,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "dynamics/procedure/decompositions.hpp"
+#include "notation/long_work.hpp"
 
 namespace mixloop {
 namespace {
@@ -24,6 +25,7 @@ Matrix map_of_tick(const IntegratorSettings& steps, const Matrix& A, double tick
   Integrator integrator({steps.method, steps.substeps, 0}, n, 2 * n);
   Matrix map = Matrix::Identity(2 * n, 2 * n);
   for (Eigen::Index column = 0; column < 2 * n; ++column) {
+    work_goes_on();
     Vector x = map.col(column);
     integrator.advance(
         x, tick, [&](int, int, double, const Vector& at, Vector& dx) { dx = A * at; },

@@ -7,12 +7,14 @@
 #include <cmath>
 
 #include "dynamics/scene/time_dependence.hpp"
+#include "notation/long_work.hpp"
 #include "planner/move_to_start.hpp"
 
 namespace mixloop {
 namespace {
 
 constexpr double kMostNumbers = 0x1p27;  // of a table: 1 GB
+constexpr const char* kWork = "planning the path";
 
 const Plan::Settings& checked(const Plan::Settings& settings, const Model<double>& model) {
   if (!(settings.rate_hz > 0) || !std::isfinite(settings.rate_hz))
@@ -106,6 +108,7 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   measures_.adopt_scale(follower.now().motors.psi, t_start);
   AngleWatch angles(*model_.scene, model_.parameters);
   for (std::int64_t step = 0; step <= steps; ++step) {
+    work_goes_on(kWork, step, steps);
     const auto at = static_cast<double>(step);
     if (follower.advance(at) != IkOutcome::solved) refusal_.no_way(follower, at);
     const double t = follower.time(at);
@@ -138,6 +141,7 @@ void PlanMaker::follow_within(Plan& plan, std::int64_t step, Follower& follower)
 void PlanMaker::check_singularities(Plan& plan, std::int64_t delay) {
   Follower follower(ik_, itinerary_, delay);
   const auto measures_at = [&](double step, double* values) {
+    work_goes_on();
     const std::int64_t before = std::llround(std::floor(step));
     const Reference known = reference_in(row(plan, before * width_), plan.n_u_);
     follower.resume({static_cast<double>(before), {}, {known.psi, known.psid, known.psidd}});
@@ -156,6 +160,7 @@ void PlanMaker::check_limits(Plan& plan, std::int64_t delay) {
   const Follower clock(ik_, itinerary_, delay);
   for (std::int64_t lap = 0; lap < laps; ++lap)
     for (std::int64_t i = 0; i <= lap_steps_; ++i) {
+      work_goes_on();
       const std::int64_t step = lap * lap_steps_ + i;
       check.look(step, reference_in(row(plan, i * width_), plan.n_u_), clock.time(static_cast<double>(step)));
     }
@@ -212,6 +217,7 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
     write(motion, t, row(plan, index));
   };
   for (std::int64_t step = 0; step < steps; ++step) {
+    work_goes_on(kWork, step + 1, steps);
     for (std::int64_t j = 0; j < width_; ++j)
       fill(static_cast<double>(step) + settings_.within[static_cast<std::size_t>(j)], step * width_ + j);
     const Reference now = reference_in(row(plan, step * width_), plan.n_u_);

@@ -13,9 +13,6 @@ using Target = Fault::Target;
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kLatest = std::int64_t{1} << 53;  // whole numbers are exact up to here
-constexpr double kMostDelayTicks = 10000;
-
-double longest_delay(double rate_hz) { return std::min(Faults::kLongestDelay, kMostDelayTicks / rate_hz); }
 
 }  // namespace
 
@@ -30,59 +27,12 @@ bool FaultSettings::change_friction() const {
                                  [](const Fault& fault) { return fault.target == Target::friction; });
 }
 
-bool may_change(const Scene& scene, int parameter) {
-  const auto uses = [&](const Formula& formula) {
-    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Formula::Node& node) {
-      return node.op == Formula::Operator::symbol && node.symbol == Symbols::kParameter0 + parameter;
-    });
-  };
-  for (const auto& coordinate : scene.coordinates)
-    if (uses(coordinate.constraint)) return false;
-  for (const auto& transform : scene.transforms)
-    if (uses(transform.theta) || uses(transform.s) || uses(transform.a) || uses(transform.alpha))
-      return false;
-  return std::none_of(scene.end_effector.point.begin(), scene.end_effector.point.end(), uses);
-}
-
-const char* objection(const Fault& fault, const Scene& scene, double rate_hz) {
-  const double magnitude = fault.magnitude;
-  if (!std::isfinite(magnitude) || !std::isfinite(fault.at) || !std::isfinite(fault.duration))
-    return "a number is not finite";
-  if (fault.at < 0 || fault.duration < 0) return "a time is negative";
-  if (fault.target > Target::friction) return "there is no such target";
-  const auto count = fault.target == Target::parameter ? static_cast<int>(scene.parameters.size())
-                     : fault.target == Target::sensor  ? scene.n()
-                                                       : scene.n_u();
-  if (fault.target != Target::friction && fault.index >= count)
-    return "there is no such motor, sensor or parameter";
-  if (fault.index < (fault.target == Target::parameter ? 0 : -1)) return "the index is negative";
-  if (fault.target == Target::parameter || fault.target == Target::friction) {
-    if (fault.kind != Kind::changed && fault.kind != Kind::none)
-      return "parameters and friction can only be changed";
-    if (fault.kind == Kind::none) return nullptr;
-    if (fault.target == Target::friction)
-      return magnitude < 0 ? "the factor on friction is negative" : nullptr;
-    if (!may_change(scene, fault.index))
-      return "the mechanism's geometry depends on the parameter: it can't jump in a run";
-    const auto index = static_cast<std::size_t>(fault.index);
-    return scene.parameters[index].dimension.same_powers(kMass) && magnitude < 0 ? "the mass is negative"
-                                                                                 : nullptr;
-  }
-  if (fault.kind == Kind::garbage && magnitude <= 0) return "the magnitude of garbage is not positive";
-  if (fault.kind == Kind::slow && magnitude <= 0) return "the time constant is not positive";
-  if (fault.kind == Kind::delayed && !(magnitude > 0 && magnitude <= longest_delay(rate_hz) * (1 + 1e-9)))
-    return "the dead time is not within 0 to 1 s and 10000 ticks";
-  if (fault.kind == Kind::intermittent && !(magnitude > 0 && magnitude <= 1))
-    return "the share of time that it is off is not within 0 to 1";
-  return fault.kind > Kind::intermittent ? "motors and sensors have no such kind" : nullptr;
-}
-
 FaultFilter::FaultFilter(Chance chance, std::size_t channel, Draw draw, double rate_hz)
     : chance_(chance),
       channel_(channel),
       draw_(draw),
       rate_hz_(rate_hz),
-      ring_(static_cast<std::size_t>(std::ceil(longest_delay(rate_hz) * rate_hz)) + 1) {}
+      ring_(static_cast<std::size_t>(std::ceil(Faults::longest_delay(rate_hz) * rate_hz)) + 1) {}
 
 void FaultFilter::start(Kind kind, double magnitude) {
   kind_ = kind;

@@ -43,16 +43,32 @@ struct FaultSettings {
   bool random() const;           ///< a scheduled one draws random numbers
 };
 
+/// Whether a parameter's change can happen in a run: not where the mechanism's geometry depends on it.
+bool may_change(const Scene& scene, int parameter);
+
+/// Whether a kind says something by its magnitude.
+bool has_magnitude(Fault::Kind kind);
+
+/// Why a fault can't be, in words; null where it can. Without a scene: in none.
+const char* objection(const Fault& fault, const Scene& scene, double rate_hz);
+const char* objection(const Fault& fault, double rate_hz);
+
+/// What faults may change: a scene, whether there is friction, the plant's parameters.
+struct FaultGround {
+  const Scene& scene;
+  bool friction = false;
+  double rate_hz = 1000;
+  const std::vector<double>& values;
+};
+
+/// Throws InputError, without a place, where a fault can't be: by its objection, or because nothing would
+/// come of it, or nothing physical.
+void require_possible(const Fault& fault, const FaultGround& ground);
+
 /// Reads the list `[{at, for, motor | sensor | parameter | friction, kind, magnitude | value}, ...]`.
 /// `friction`: there is some that can change; `values`: the plant's parameters.
 std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool friction, double rate_hz,
                                const std::vector<double>& values);
-
-/// Whether a parameter's change can happen in a run: not where the mechanism's geometry depends on it.
-bool may_change(const Scene& scene, int parameter);
-
-/// Why a fault can't be, in words; null where it can.
-const char* objection(const Fault& fault, const Scene& scene, double rate_hz);
 
 /// One scalar's way through a fault, tick by tick. Within a tick it may be asked again, with another value:
 /// the last one counts.
@@ -87,8 +103,9 @@ class Faults {
  public:
   /// So many injected faults may wait for their time.
   static constexpr std::size_t kWaiting = 64;
-  /// The longest dead time of a fault, s; at fast rates less, see objection.
+  /// The longest dead time of a fault, s; at fast rates less.
   static constexpr double kLongestDelay = 1;
+  static double longest_delay(double rate_hz);
 
   /// What has come about, and what is still to come.
   struct State {

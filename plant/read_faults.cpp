@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "dynamics/scene/check_physical.hpp"
 #include "dynamics/scene/coordinate_values.hpp"
 #include "notation/value.hpp"
 #include "plant/faults.hpp"
@@ -32,8 +31,7 @@ Magnitude magnitude_of(Kind kind) {
 
 class Reader {
  public:
-  Reader(const Scene& scene, bool friction, double rate_hz, const std::vector<double>& values)
-      : scene_(scene), friction_(friction), rate_hz_(rate_hz), values_(values) {}
+  explicit Reader(const FaultGround& ground) : ground_(ground), scene_(ground.scene) {}
 
   Fault read(const NodePtr& node) const {
     const Mapping entry(
@@ -57,8 +55,11 @@ class Reader {
       if (!(fault.duration > 0))
         throw InputError("out_of_range", length->place, "a fault that doesn't last; without 'for' it stays");
     }
-    if (const char* reason = objection(fault, scene_, rate_hz_))
-      throw InputError("out_of_range", culprit(entry)->place, reason);
+    try {
+      require_possible(fault, ground_);
+    } catch (const InputError& error) {
+      throw InputError(error.code, culprit(entry)->place, error.message);
+    }
     return fault;
   }
 
@@ -116,9 +117,6 @@ class Reader {
       refuse(entry, {"value"}, "belongs to a parameter; friction has its factor");
       fault.target = Target::friction;
       fault.magnitude = number_of(*friction, kPure, "the factor on friction");
-      if (!friction_)
-        throw InputError("out_of_range", friction->place,
-                         "neither the scene nor plant.actuators has friction that could change");
       return;
     }
     fault.target = Target::parameter;
@@ -130,28 +128,19 @@ class Reader {
       throw InputError(
           "out_of_range", parameter->place,
           "the mechanism's geometry depends on '" + names[index] + "', so it can't jump in a run");
-    const NodePtr value = entry.at("value");
-    fault.magnitude = number_of(*value, scene_.parameters[index].dimension, "the parameter's new value");
-    auto changed = values_;
-    changed[index] = fault.magnitude;
-    try {
-      check_physical(scene_, changed);
-    } catch (const InputError& error) {
-      throw InputError(error.code, value->place, "with this value, " + error.message);
-    }
+    fault.magnitude =
+        number_of(*entry.at("value"), scene_.parameters[index].dimension, "the parameter's new value");
   }
 
+  FaultGround ground_;
   const Scene& scene_;
-  bool friction_;
-  double rate_hz_;
-  const std::vector<double>& values_;
 };
 
 }  // namespace
 
 std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool friction, double rate_hz,
                                const std::vector<double>& values) {
-  const Reader reader(scene, friction, rate_hz, values);
+  const Reader reader({.scene = scene, .friction = friction, .rate_hz = rate_hz, .values = values});
   std::vector<Fault> faults;
   if (node->kind == Node::Kind::empty) return faults;
   if (node->kind != Node::Kind::sequence)

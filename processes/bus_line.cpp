@@ -50,6 +50,11 @@ void add_peer_options(CLI::App& command, PeerLine& line) {
   add_evaluation_option(command, line.evaluation);
 }
 
+void PeerLine::say_waiting(const char* program, const char* whom, const char* channel) const {
+  fmt::print(stderr, "{}: waiting up to {:g} s for {}, to be heard on {}{} of {}\n", program, first_wait,
+             whom, bus.prefix, channel, bus.url);
+}
+
 void PeerLine::take_rights(const char* program, bool say, int below) const {
   if (!real_time) return;
   RealTimeWishes mine = wishes;

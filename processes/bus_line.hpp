@@ -29,6 +29,8 @@ struct PeerLine : CommonOptions {
   /// In real time: takes what rights there are, and says on stderr what is lost, unless `mixloop run`
   /// launched this process (its plant says it). `below`: by how much its priority is less than the line's.
   void take_rights(const char* program, bool say, int below = 0) const;
+  /// Says on stderr for whom it waits, and how long: a person started it.
+  void say_waiting(const char* program, const char* whom, const char* channel) const;
 };
 void add_peer_options(CLI::App& command, PeerLine& line);
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "loop/result.hpp"
+#include "notation/long_work.hpp"
 
 namespace mixloop {
 namespace {
@@ -48,6 +49,8 @@ int run_command_line(int argc, char** argv, CLI::App& app, const int& status) {
       return kBadInput;
     }
     return report(json, program, "command_line", error.what(), {}, kBadInput);
+  } catch (const Interrupted& interrupted) {
+    return report(json, program, "interrupted", interrupted.what(), {}, kInterrupted);
   } catch (const InputError& error) {
     return report(json, program, error.code, error.message, error.place, kBadInput);
   } catch (const RunFault& error) {

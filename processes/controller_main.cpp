@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // mixloop-controller: answers the plant's STATE and the planner's REFERENCE of a tick with its COMMAND.
+#include "notation/long_work.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/controller_side.hpp"
 #include "processes/peer.hpp"
@@ -11,6 +12,7 @@ namespace {
 int run(const PeerLine& line) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const WorkWatch watch([&] { return stop.turned(); });
   const Experiment experiment = line.load();
   const Plan plan = make_plan(experiment);
   GuardedController controller = make_guarded_controller(experiment);
@@ -20,6 +22,7 @@ int run(const PeerLine& line) {
   ControllerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()),
                       controller_side(controller, experiment, plan));
   line.take_rights("mixloop-controller", line.session == 0);
+  if (line.session == 0) line.say_waiting("mixloop-controller", "a plant", "STATE");
   return ended("mixloop-controller", peer.run(), peer.report(), stop);
 }
 

@@ -1,30 +1,112 @@
 // SPDX-License-Identifier: MIT
 #include "processes/fault_ear.hpp"
 
-namespace mixloop {
+#include <fmt/format.h>
 
-FaultEar::FaultEar(Bus& bus, int n, PlantReport& report)
-    : bus_(bus), channel_(bus.channel("FAULT")), report_(report), inbox_(n) {
+#include <algorithm>
+
+#include "notation/errors.hpp"
+
+namespace mixloop {
+namespace {
+
+void say_refused(const std::string& why) { fmt::print(stderr, "mixloop-plant: FAULT refused: {}\n", why); }
+
+/// "1 payload, 2 spring": the parameters as `mixloop control fault parameter` counts them.
+std::string counted_parameters(const Scene& scene) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.parameters.size(); ++i)
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", i + 1, scene.parameters[i].name);
+  return text.empty() ? "none" : text;
+}
+
+/// -1 where there is none.
+int payload_in(const Scene& scene) {
+  const auto found = std::find_if(scene.parameters.begin(), scene.parameters.end(),
+                                  [](const auto& parameter) { return parameter.name == "payload"; });
+  return found == scene.parameters.end() ? -1 : static_cast<int>(found - scene.parameters.begin());
+}
+
+}  // namespace
+
+FaultEar::FaultEar(Bus& bus, const Experiment& experiment, bool allowed, PlantReport& report)
+    : bus_(bus),
+      channel_(bus.channel("FAULT")),
+      experiment_(experiment),
+      allowed_(allowed),
+      report_(report),
+      inbox_(experiment.scene->n()),
+      answer_(experiment.scene->n()) {
   heard_.reserve(Faults::kWaiting);
   bus_.subscribe<&FaultEar::on_fault>(channel_, this);
+}
+
+void FaultEar::forget(std::int64_t not_taken) {
+  heard_.clear();
+  if (not_taken > 0)
+    say_refused(fmt::format("{} more than can wait for their time ({}) or come in a run ({})", not_taken,
+                            Faults::kWaiting, DeadlinePlant::kInjected));
 }
 
 void FaultEar::on_fault(Bytes bytes) {
   const auto reject = [this](Reject cause) { report_.rejects.count(cause); };
   if (const auto cause = inbox_.read(bytes)) return reject(*cause);
-  const fault_t& m = inbox_.message;
-  if (m.session != report_.session) return reject(Reject::session);
-  if (m.seq <= count_) return reject(Reject::stale);
-  if (m.target < fault_t::TARGET_MOTOR || m.target > fault_t::TARGET_FRICTION) return;
-  if (m.kind < fault_t::KIND_NONE || m.kind > fault_t::KIND_CHANGED) return;
-  count_ = m.seq;
-  if (heard_.size() == heard_.capacity()) return;
-  heard_.push_back({.target = static_cast<Fault::Target>(m.target),
-                    .kind = static_cast<Fault::Kind>(m.kind),
-                    .index = m.index,
-                    .magnitude = m.magnitude,
-                    .at = 1e-6 * static_cast<double>(m.utime),
-                    .duration = m.duration});
+  const fault_t& message = inbox_.message;
+  if (message.session != report_.session) return reject(Reject::session);
+  if (message.kind < fault_t::KIND_NONE) return;  // an answer, its own too
+  if (message.seq <= count_) return reject(Reject::stale);
+  count_ = message.seq;
+  if (!allowed_) {
+    say_refused("this plant was started without --allow-faults");
+    return answer(fault_t::KIND_NOT_ALLOWED);
+  }
+  try {
+    take(message);
+    answer(fault_t::KIND_TAKEN);
+  } catch (const InputError& error) {
+    say_refused(error.message);
+    answer(fault_t::KIND_REFUSED);
+  }
+}
+
+/// Throws InputError where it can't be.
+void FaultEar::take(const fault_t& message) {
+  const Scene& scene = *experiment_.scene;
+  const Fault fault = fault_in(message);
+  const FaultGround ground{.scene = scene,
+                           .friction = scene.has_friction() || experiment_.plant.actuators.has_friction(),
+                           .rate_hz = experiment_.rate_hz,
+                           .values = experiment_.plant_parameters};
+  const auto parameters = static_cast<int>(scene.parameters.size());
+  if (fault.target == Fault::Target::parameter && (fault.index < 0 || fault.index >= parameters))
+    throw InputError(
+        "out_of_range", {},
+        message.index == -1
+            ? fmt::format("the scene has no parameter that is called payload; its parameters: {}",
+                          counted_parameters(scene))
+            : fmt::format("there is no parameter {}; the scene's parameters: {}", message.index + 1,
+                          counted_parameters(scene)));
+  require_possible(fault, ground);
+  if (heard_.size() == heard_.capacity())
+    throw InputError("out_of_range", {}, fmt::format("{} came in one tick already", heard_.size()));
+  heard_.push_back(fault);
+}
+
+Fault FaultEar::fault_in(const fault_t& message) const {
+  const auto target = static_cast<Fault::Target>(message.target);
+  const bool payload = target == Fault::Target::parameter && message.index == -1;
+  return {.target = target,
+          .kind = static_cast<Fault::Kind>(message.kind),
+          .index = payload ? payload_in(*experiment_.scene) : message.index,
+          .magnitude = message.magnitude,
+          .at = 1e-6 * static_cast<double>(message.utime),
+          .duration = message.duration};
+}
+
+void FaultEar::answer(std::int8_t what) {
+  answer_.message = inbox_.message;
+  answer_.message.kind = what;
+  bus_.publish(channel_, answer_.encode());
 }
 
 }  // namespace mixloop

@@ -5,11 +5,13 @@
 
 #include "loop/inputs.hpp"
 #include "loop/trajectory.hpp"
+#include "notation/long_work.hpp"
 #include "processes/result_json.hpp"
 
 namespace mixloop {
 
 void keep(const std::filesystem::path& folder, const RecordedPlant& run, const Result& result) {
+  const Uninterrupted whole;
   write_trajectory(folder / "trajectory.csv", run.experiment(), run.plan(), run.recorder());
   keep_inputs(folder, run.experiment());
   keep_result(folder, result);

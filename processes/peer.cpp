@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "loop/result.hpp"
+#include "processes/config_words.hpp"
 
 namespace mixloop {
 
@@ -14,6 +15,7 @@ PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std
           .n_u = experiment.scene->n_u(),
           .session = line.session,
           .config = config_of(common_ground(experiment)),
+          .config_words = config_words(experiment),
           .rate_hz = experiment.rate_hz,
           .last_tick = last_tick,
           .first_wait = line.first_wait_ns(),

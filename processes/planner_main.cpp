@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // mixloop-planner: publishes the REFERENCE of each tick one tick ahead of the plant.
+#include "notation/long_work.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/peer.hpp"
 #include "runtime/protocol/planner_peer.hpp"
@@ -20,6 +21,7 @@ void fill(const Reference& reference, reference_t& message) {
 int run(const PeerLine& line) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const WorkWatch watch([&] { return stop.turned(); });
   const Experiment experiment = line.load();
   const Plan plan = make_plan(experiment);
 
@@ -34,6 +36,7 @@ int run(const PeerLine& line) {
   PlannerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()), std::move(side));
   // A state wakes controller and planner at once, and only the controller's answer is waited for.
   line.take_rights("mixloop-planner", line.session == 0, 1);
+  if (line.session == 0) line.say_waiting("mixloop-planner", "a plant", "STATE");
   return ended("mixloop-planner", peer.run(), peer.report(), stop);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "processes/plant_line.hpp"
 
+#include "processes/config_words.hpp"
 #include "processes/speed.hpp"
 
 namespace mixloop {
@@ -17,6 +18,7 @@ PlantOptions plant_options(const PlantLine& line, const Experiment& experiment, 
                                              : "max"),
           .session = session,
           .config = config_of(common_ground(experiment)),
+          .config_words = config_words(experiment),
           .truth = line.truth,
           .hold = line.hold,
           .paused = line.paused,

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 
+#include "notation/long_work.hpp"
 #include "processes/keep.hpp"
 #include "processes/plant_session.hpp"
 #include "runtime/protocol/session.hpp"
@@ -16,6 +17,7 @@ namespace {
 int run(const PlantLine& line) {
   StopSwitch stop;
   stop.turn_on_signals();
+  const WorkWatch watch([&] { return stop.turned(); });
   Experiment loaded = line.load();
   loaded.plant.faults.injected = line.allow_faults;
   const Plan plan = make_plan(loaded);
@@ -23,6 +25,7 @@ int run(const PlantLine& line) {
   ReportLine report(line.report_fd);
   if (!line.out.empty()) prepare_folder(line.out);
   Bus bus(line.bus);
+  if (line.report_fd < 0) line.say_waiting("mixloop-plant", "a controller and a planner", "COMMAND");
   for (std::int64_t session = line.session;;) {
     PlantSession plant(line, experiment, plan, report);
     const std::int64_t next = draw_session();

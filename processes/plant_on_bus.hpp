@@ -19,8 +19,10 @@ class PlantOnBus : public Side {
   /// `goes_on` is RecordedPlant's.
   PlantOnBus(RecordedPlant& run, std::function<bool(std::int64_t)> goes_on);
 
-  /// From now on it takes the operator's faults from there.
-  void listen(Bus& bus, PlantReport& report) { ear_.emplace(bus, run_.experiment().scene->n(), report); }
+  /// From now on it takes the operator's faults from there, where they are allowed.
+  void listen(Bus& bus, bool allowed, PlantReport& report) {
+    ear_.emplace(bus, run_.experiment(), allowed, report);
+  }
 
   bool measure(std::int64_t tick, std::span<double> psi, std::span<double> psid) override;
   void truth(std::int64_t tick, truth_t& message) override;
@@ -29,8 +31,9 @@ class PlantOnBus : public Side {
   /// `tick(faults, goes_on)`, and the faults are taken.
   template <class Tick>
   bool live_through(const Tick& tick) {
+    const std::int64_t before = run_.faults_not_taken();
     const bool sound = tick(ear_ ? ear_->heard() : std::span<const Fault>(), goes_on_);
-    if (ear_) ear_->forget();
+    if (ear_) ear_->forget(run_.faults_not_taken() - before);
     return sound;
   }
 

@@ -5,6 +5,7 @@
 
 #include "loop/arrivals_file.hpp"
 #include "loop/review.hpp"
+#include "notation/long_work.hpp"
 #include "processes/bus_figures.hpp"
 #include "processes/keep.hpp"
 #include "processes/plant_on_bus.hpp"
@@ -28,7 +29,7 @@ Ending PlantSession::run_as(Bus& bus, const StopSwitch& stop, std::int64_t sessi
                             std::int64_t next_session) {
   Hardware hardware(run_, [this](std::int64_t k) { return goes_on(k); });
   Runner runner(bus, stop, plant_options(line_, run_.experiment(), run_.plan().ticks(), session), hardware);
-  if (line_.allow_faults) hardware.listen(bus, runner.report());
+  hardware.listen(bus, line_.allow_faults, runner.report());
   line_.take_rights("mixloop-plant", true);
   return drive(runner, next_session);
 }
@@ -65,11 +66,13 @@ bool PlantSession::goes_on(std::int64_t k) {
 void PlantSession::finish(const RunFault* fault) {
   if (finished_) return;
   finished_ = true;
+  const Uninterrupted whole;  // what there is is told and kept
   const Experiment& experiment = run_.experiment();
   Result result =
       result_of(experiment, run_.recorder().measures(), line_.real_time ? "real_time" : "lockstep",
                 std::chrono::duration<double>(bus_->wall_time).count());
-  result.warnings = review(experiment, run_.plan(), run_.recorder());
+  const bool stopped = !fault && result.run->measures.interrupted_at;
+  result.warnings = stopped ? std::vector<std::string>() : review(experiment, run_.plan(), run_.recorder());
   result.session = bus_->session;
   result.bus = bus_figures(*bus_);
   if (line_.real_time) add_deadlines(*result.bus, *bus_, run_.deadlines(), experiment.deadline.safe_state);

@@ -7,12 +7,14 @@
 #include <tuple>
 
 #include "notation/errors.hpp"
+#include "notation/long_work.hpp"
 #include "runtime/bus/log_reader.hpp"
 #include "watch/tick_assembly.hpp"
 
 namespace mixloop {
 namespace {
 
+constexpr const char* kReading = "reading a log";
 constexpr std::int32_t kMostMotors = 1000;
 constexpr std::int64_t kFarthestJump = 100'000;  // ticks: past it a tick can't be
 
@@ -175,6 +177,7 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
   std::map<std::int64_t, std::int64_t> utime;   // of the session's last tick
   std::map<std::int64_t, std::int32_t> motors;  // as the session's first command counts them
   while (const LogEvent* event = reader.next()) {
+    work_goes_on(kReading, reader.position(), reader.size());
     const auto header = peek(event->data);
     if (!header || !sound(*header)) continue;
     const auto is = [&](const char* kind, std::int64_t type) {
@@ -213,8 +216,10 @@ LogFacts read_log(const std::filesystem::path& log, const std::string& prefix, c
                   double rate_hz, const RunSizes& sizes, const std::function<void(Tick&)>& on_tick) {
   LogReader reader(log);
   SessionReader ticks(session, rate_hz, sizes, on_tick);
-  while (const LogEvent* event = reader.next())
+  while (const LogEvent* event = reader.next()) {
+    work_goes_on(kReading, reader.position(), reader.size());
     if (const auto kind = kind_of(*event, prefix); !kind.empty()) ticks.add(kind, *event);
+  }
   ticks.finish();
   ticks.facts.damage = reader.damage();
   return ticks.facts;

@@ -24,10 +24,20 @@ void Progress::at(std::int64_t tick) {
   next_ = now + std::chrono::milliseconds(200);
   drawn_ = true;
   const double part = ticks_ > 0 ? static_cast<double>(tick) / static_cast<double>(ticks_) : 1;
-  fmt::print(stderr, "\r{}: {:.3f} of {:.3f} {} ({:.0f} %)\033[K", name_,
-             static_cast<double>(tick) / per_unit_, static_cast<double>(ticks_) / per_unit_, unit_,
-             100 * part);
+  if (unit_.empty())
+    fmt::print(stderr, "\r{}: {:.0f} %\033[K", name_, 100 * part);
+  else
+    fmt::print(stderr, "\r{}: {:.3f} of {:.3f} {} ({:.0f} %)\033[K", name_,
+               static_cast<double>(tick) / per_unit_, static_cast<double>(ticks_) / per_unit_, unit_,
+               100 * part);
   std::fflush(stderr);
+}
+
+void ShownWork::hear(const char* what, std::int64_t done, std::int64_t of) {
+  if (done >= of) return progress_.reset();
+  if (!progress_ || what != what_) progress_.emplace(what, of, 1, "");
+  what_ = what;
+  if (++unheard_ % 8 == 0) progress_->at(done / 64 * 64);
 }
 
 void Progress::clear() {

@@ -3,7 +3,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
+
+#include "notation/long_work.hpp"
+#include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 
@@ -11,7 +15,7 @@ namespace mixloop {
 /// is no terminal and for work that is over within half a second.
 class Progress {
  public:
-  /// `per_unit` of them make a `unit`, in which the line counts.
+  /// `per_unit` of them make a `unit`, in which the line counts; without a unit it tells the share alone.
   Progress(std::string name, std::int64_t ticks, double per_unit, std::string unit = "s");
   ~Progress();
   Progress(const Progress&) = delete;
@@ -28,6 +32,23 @@ class Progress {
   bool on_terminal_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point next_;
+};
+
+/// While it lives, this thread's long work is shown as by Progress, and ended by Interrupted once the switch
+/// is turned.
+class ShownWork {
+ public:
+  explicit ShownWork(const StopSwitch& stop)
+      : watch_([&stop] { return stop.turned(); },
+               [this](const char* what, std::int64_t done, std::int64_t of) { hear(what, done, of); }) {}
+
+ private:
+  void hear(const char* what, std::int64_t done, std::int64_t of);
+
+  const char* what_ = nullptr;
+  std::optional<Progress> progress_;  ///< of `what_`
+  int unheard_ = 0;                   ///< steps since it was last told
+  WorkWatch watch_;
 };
 
 }  // namespace mixloop

@@ -94,6 +94,18 @@ void add_notes(const LogFacts& facts, std::vector<std::string>& notes) {
   if (!facts.damage.empty()) notes.push_back("The log's file: " + facts.damage + ".");
 }
 
+/// Why a run ended early, and what its plant could not take; doubled messages alone are a lossy network's.
+void add_what_went_wrong(const nlohmann::json& result, std::vector<std::string>& notes) {
+  if (const auto error = result.find("error"); error != result.end())
+    notes.push_back("The run ended by a fault: " + error->value("message", "") + ".");
+  const auto by_cause = result.value("rejected_by_cause", std::map<std::string, std::int64_t>());
+  std::string dropped;
+  for (const auto& [cause, count] : by_cause)
+    if (count > 0 && cause != "stale")
+      dropped += fmt::format("{}{} {}", dropped.empty() ? "" : ", ", count, cause);
+  if (!dropped.empty()) notes.push_back("The plant dropped messages: " + dropped + ".");
+}
+
 /// What is known before the ticks: of a folder, then of a log.
 RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& options, Known known) {
   RunFile run{.label = folder.filename().string(),
@@ -108,6 +120,7 @@ RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& op
     run.session = chosen_session(log, options, run.result.value("session", options.session), run.notes);
   }
   if (!known.scene) run.notes.push_back("No inputs.json: dependent coordinates are not shown.");
+  add_what_went_wrong(run.result, run.notes);
   return run;
 }
 

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "notation/errors.hpp"
+#include "notation/long_work.hpp"
 
 namespace mixloop {
 namespace {
@@ -87,6 +88,7 @@ void TrajectoryReader::read(std::size_t m, const std::function<void(Tick&)>& on_
 
   const char *at = text_.data() + at_, *const end = text_.data() + text_.size();
   for (int line = 2; at < end; ++line, ++tick.k) {
+    work_goes_on("reading a trajectory", at - text_.data(), static_cast<std::int64_t>(text_.size()));
     tick.actual = {};
     tick.kinetic_energy = tick.command_age = kUnknown;
     for (std::size_t i = 0; i < places.size(); ++i) {

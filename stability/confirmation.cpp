@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "notation/long_work.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -79,6 +81,7 @@ Fate fate_of_disturbance(const Experiment& experiment, const Plan& plan, const S
       still(experiment, start, sampling, Vector::Zero(beside.size()));
   int small = 0;  // ticks in a row: an oscillation passes through zero
   for (int k = 0; k < kMostTicks; ++k) {
+    work_goes_on();
     disturbed.tick();
     still.tick();
     const Vector off = (disturbed.psi() - still.psi()).head(beside.size());

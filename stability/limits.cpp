@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "notation/long_work.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -38,6 +40,7 @@ std::optional<double> first_unstable(const std::function<double(double)>& radius
                                      const std::function<double(double)>& next) {
   if (grows(radius(start))) return start;
   for (double stable = start; stable != end;) {
+    work_goes_on();
     const bool upwards = end > start;
     const double ahead = upwards ? std::min(next(stable), end) : std::max(next(stable), end);
     if (!grows(radius(ahead))) {

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "notation/errors.hpp"
+#include "notation/long_work.hpp"
 
 namespace mixloop {
 namespace {
@@ -84,7 +85,10 @@ StabilityMap stability_map(const Survey& survey, std::string name) {
   for (int i = 1; i <= kTicks; ++i) {
     map.ticks.push_back(2.5 * tick * i / kTicks);
     auto& row = map.radius.emplace_back();
-    for (const double delay : map.delays) row.push_back(path_radius(instants, {map.ticks.back(), delay}));
+    for (const double delay : map.delays) {
+      work_goes_on();
+      row.push_back(path_radius(instants, {map.ticks.back(), delay}));
+    }
   }
   return map;
 }

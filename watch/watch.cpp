@@ -87,6 +87,8 @@ void Watch::begin(const state_t& state) {
   command_flags_ = truth_flags_ = 0;
   phase_ = reference_t::PHASE_PATH;
   config_ = state.config;
+  command_config_.reset();
+  reference_config_.reset();
   stopped_ = false;
   ending_.reset();
   timing_.reset();
@@ -105,6 +107,7 @@ void Watch::forget_the_worst() {
 }
 
 void Watch::on(const state_t& state, Instant at) {
+  if (state.seq >= latest_) heard_at_ = at;
   if (state.seq <= latest_) return;
   if (latest_ >= 0) intervals_.add(at - state_at_);
   latest_ = state.seq;
@@ -115,6 +118,8 @@ void Watch::on(const state_t& state, Instant at) {
 }
 
 void Watch::on(const reference_t& reference, Instant) {
+  reference_config_ = reference.config;
+  if (reference.config != config_) return;  // who awaits it drops it
   if (ticks_.add(reference) != Taken::fresh) return;
   const HeardTick& tick = *ticks_.find(reference.seq);
   compare_motors(tick);
@@ -122,6 +127,8 @@ void Watch::on(const reference_t& reference, Instant) {
 }
 
 void Watch::on(const command_t& command, Instant at) {
+  command_config_ = command.config;
+  if (command.config != config_) return;  // the plant drops it
   command_flags_ = command.flags;
   if (command.seq == latest_ && command.seq > latest_command_) answers_.add(at - state_at_);
   latest_command_ = std::max(latest_command_, command.seq);
@@ -183,13 +190,15 @@ Condition Watch::condition(Instant at) const {
   if (!heard_state()) return Condition::silent;
   if (ending_) return Condition::ended;
   if (stopped_) return Condition::stopped;
-  if (at - state_at_ > std::chrono::seconds(1)) return Condition::silent;
+  if (at - heard_at_ > std::chrono::seconds(1)) return Condition::silent;
+  if (at - state_at_ > std::chrono::seconds(1))
+    return latest_command_ < latest_ ? Condition::waiting : Condition::paused;
   if (state_flags_ & state_t::FLAG_SAFE_STATE) return Condition::safe_state;
   if (phase_ == reference_t::PHASE_MOVE_TO_START) return Condition::moving_to_start;
   return phase_ == reference_t::PHASE_HOLD ? Condition::holding : Condition::on_path;
 }
 
-std::vector<std::string> Watch::warnings() const {
+std::vector<std::string> Watch::warnings(Instant at) const {
   std::vector<std::string> all;
   const auto say = [&all](bool when, const std::string& what) {
     if (when) all.push_back(what);
@@ -198,6 +207,15 @@ std::vector<std::string> Watch::warnings() const {
     const std::string difference = name_difference(config_of(common_ground(*experiment_)), config_);
     say(!difference.empty(), "the plant runs another experiment: its " + difference + " differ");
   }
+  const auto say_other = [&](const char* who, const std::optional<std::int64_t>& config) {
+    if (const std::string difference = config ? name_difference(config_, *config) : ""; !difference.empty())
+      all.push_back(std::string("the ") + who + " was started with another " + difference +
+                    " than the plant");
+  };
+  say_other("controller", command_config_);
+  say_other("planner", reference_config_);
+  if (const std::string dropped = timing_ ? dropped_in(*timing_) : ""; condition(at) == Condition::waiting)
+    say(!dropped.empty(), "the plant has dropped " + dropped);
   say(command_flags_ & command_t::FLAG_JOINED_LATE, "the controller joined late");
   say(command_flags_ & command_t::FLAG_LIMITED, "the controller limits its torque");
   const auto ahead = extrapolated_by(command_flags_);
@@ -222,7 +240,7 @@ WatchView Watch::view(Instant at) {
   view.real_time = state_flags_ & state_t::FLAG_REAL_TIME;
   view.condition = condition(at);
   view.ending = ending_;
-  view.warnings = warnings();
+  view.warnings = warnings(at);
   view.position_error = position_error_;
   view.position_source = !position_error_ ? "" : kinematics_ ? "experiment" : "truth";
   view.worst_at = worst_at_;

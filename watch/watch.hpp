@@ -37,9 +37,19 @@ struct Heard {
 };
 
 /// How a run stands.
-enum class Condition : std::uint8_t { silent, on_path, moving_to_start, holding, safe_state, stopped, ended };
+enum class Condition : std::uint8_t {
+  silent,
+  on_path,
+  moving_to_start,
+  holding,
+  safe_state,
+  stopped,
+  ended,
+  waiting,  ///< the plant repeats a tick that has no answer
+  paused,   ///< it repeats one that has
+};
 inline constexpr std::array kConditionNames = {
-    "silent", "on_path", "moving_to_start", "holding", "safe_state", "stopped", "ended"};
+    "silent", "on_path", "moving_to_start", "holding", "safe_state", "stopped", "ended", "waiting", "paused"};
 
 /// All that a viewer shows, at one instant.
 struct WatchView {
@@ -91,7 +101,7 @@ class Watch {
   void compare_with_truth(const HeardTick& tick);
   void compare_position(const Eigen::Vector3d& position, const reference_t& reference, std::int64_t utime);
   Condition condition(Instant at) const;
-  std::vector<std::string> warnings() const;
+  std::vector<std::string> warnings(Instant at) const;
 
   std::optional<Experiment> experiment_;
   std::optional<Equations::Workspace> kinematics_;
@@ -101,10 +111,12 @@ class Watch {
   std::size_t n_ = 0, n_u_ = 0;
   TickAssembly ticks_{{}};
   std::int64_t latest_ = -1, latest_command_ = -1;
-  Instant state_at_{0};
+  Instant state_at_{0};  ///< when the latest STATE was first heard
+  Instant heard_at_{0};  ///< when it was last heard
   std::int32_t state_flags_ = 0, command_flags_ = 0, truth_flags_ = 0;
   std::int8_t phase_ = 0;
-  std::int64_t config_ = 0;
+  std::int64_t config_ = 0;  ///< the plant's; the others' that were last heard
+  std::optional<std::int64_t> command_config_, reference_config_;
   double plant_time_ = 0;
   bool stopped_ = false;
   std::optional<Ending> ending_;

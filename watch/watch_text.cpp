@@ -50,6 +50,10 @@ Piece condition(const WatchView& view) {
       return {"holding the end of the path", Style::good};
     case Condition::moving_to_start:
       return {"moving to the path's start", Style::good};
+    case Condition::waiting:
+      return {fmt::format("waiting: no COMMAND that answers tick {}", view.tick), Style::warning};
+    case Condition::paused:
+      return {fmt::format("paused: the plant repeats tick {}", view.tick), Style::warning};
     case Condition::on_path:
       break;
   }
@@ -149,9 +153,11 @@ std::vector<Line> timing_lines(const WatchView& view) {
     lines.push_back({{fmt::format("missed {} (in a row {}), in time {:.0f} % of the last 100, dropped {}",
                                   t->missed, t->longest_miss, 100 * t->success_last_100, rejected(*t)),
                       t->missed > 0 ? Style::warning : Style::plain}});
-    lines.push_back({{fmt::format("overruns {}, slipped {}, resent {}", t->overruns,
-                                  duration_text_ns(t->slipped), t->resent),
-                      t->overruns > 0 ? Style::warning : Style::plain}});
+    const std::string dropped = dropped_in(*t);
+    lines.push_back(
+        {{fmt::format("overruns {}, slipped {}, resent {}{}{}", t->overruns, duration_text_ns(t->slipped),
+                      t->resent, dropped.empty() ? "" : "; dropped: ", dropped),
+          t->overruns > 0 ? Style::warning : Style::plain}});
   } else {
     lines.push_back({{"no TIMING heard yet from the plant", Style::quiet}});
   }

@@ -2,6 +2,7 @@
 #include "dynamics/program/compiler.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -9,10 +10,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+
+#include "notation/long_work.hpp"
 
 extern char** environ;
 
@@ -44,6 +48,28 @@ std::optional<Compiler> compiler_at(const std::string& name) {
   identity << file.string() << ' ' << info.st_size << ' ' << info.st_mtim.tv_sec << '.'
            << info.st_mtim.tv_nsec;
   return Compiler{*path, identity.str()};
+}
+
+/// Waits for a compiler's end. Throws Interrupted, the compiler ended.
+bool succeeds(pid_t child) {
+  int status = -1;
+  const auto reap = [&](int how) {
+    pid_t ended = 0;
+    do ended = ::waitpid(child, &status, how);
+    while (ended < 0 && errno == EINTR);
+    return ended != 0;
+  };
+  try {
+    while (!reap(WNOHANG)) {
+      work_goes_on();
+      ::poll(nullptr, 0, 2);
+    }
+  } catch (const Interrupted&) {
+    ::kill(-child, SIGKILL);
+    reap(0);
+    throw;
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 std::string read_processor() {
@@ -94,13 +120,13 @@ bool build_shared_object(const Compiler& compiler, const fs::path& source, const
   ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   pid_t child = -1;
-  const int failed = ::posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawnattr_t attributes;  // a process group of its own, so that all of it can be ended
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const int failed = ::posix_spawn(&child, arguments[0], &actions, &attributes, arguments.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
-  int status = -1;
-  if (failed == 0)
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-  if (failed == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
+  if (failed == 0 && succeeds(child)) return true;
   std::ifstream said(log);
   complaint.assign(std::istreambuf_iterator<char>(said), {});
   complaint.resize(std::min<std::size_t>(complaint.size(), 2000));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dynamics/symbolic/operations.hpp"
+#include "notation/long_work.hpp"
 
 namespace mixloop {
 
@@ -31,6 +32,7 @@ Graph::Graph() {
 }
 
 NodeId Graph::intern(const ExpressionNode& node) {
+  work_goes_on();
   auto [found, fresh] = ids_.try_emplace(node, static_cast<NodeId>(nodes_.size()));
   if (fresh) nodes_.push_back(node);
   return found->second;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "notation/long_work.hpp"
+
 namespace mixloop {
 
 HarmonicKey HarmonicKey::operator+(const HarmonicKey& other) const {
@@ -79,6 +81,7 @@ HarmonicSum& HarmonicSum::operator*=(long double factor) {
 
 void HarmonicSum::add_product(const HarmonicSum& a, const HarmonicSum& b) {
   for (const auto& [ka, ta] : a.terms_) {
+    work_goes_on();
     for (const auto& [kb, tb] : b.terms_) {
       Term& mine = terms_[ka + kb];
       mine.value += ta.value * tb.value;

@@ -52,5 +52,6 @@ class Rejects {
 
 /// As "7 length, 5 session".
 std::string to_string(const Rejects& rejects);
+std::string dropped_in(const timing_t& timing);
 
 }  // namespace mixloop

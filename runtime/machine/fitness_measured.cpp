@@ -3,10 +3,12 @@
 #include <pthread.h>
 
 #include <atomic>
+#include <functional>
 #include <set>
 #include <thread>
 
 #include "notation/errors.hpp"
+#include "notation/long_work.hpp"
 #include "runtime/clock/histogram.hpp"
 #include "runtime/machine/fitness.hpp"
 
@@ -14,6 +16,8 @@ namespace mixloop {
 namespace {
 
 using namespace std::chrono_literals;
+
+constexpr auto kLook = 50ms;  // how often it is looked whether somebody asked for the end
 
 double us(nanoseconds time) { return std::chrono::duration<double, std::micro>(time).count(); }
 
@@ -77,6 +81,26 @@ class Pinger {
   bool heard_ = false;
 };
 
+/// Does some work in a thread of its own, which ends early where this one's is interrupted.
+void beside(const std::function<void(const std::atomic<bool>& over)>& work) {
+  std::atomic<bool> over = false, done = false;
+  std::thread thread([&] {
+    work(over);
+    done = true;
+  });
+  try {
+    while (!done) {
+      work_goes_on();
+      sleep_until(now() + kLook);
+    }
+  } catch (const Interrupted&) {
+    over = true;
+    thread.join();
+    throw;
+  }
+  thread.join();
+}
+
 /// Hears who publishes.
 struct Ear {
   std::set<std::string> heard;
@@ -94,16 +118,16 @@ struct Ear {
 Finding wake_up_finding(nanoseconds span) {
   Histogram late;
   bool at_priority = false;
-  std::thread([&] {
+  beside([&](const std::atomic<bool>& over) {
     const sched_param parameters{.sched_priority = 80};
     at_priority = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
     const Instant start = now();
-    for (Instant due = start + 1ms; due < start + span; due += 1ms) {
+    for (Instant due = start + 1ms; due < start + span && !over; due += 1ms) {
       sleep_until(due);
       late.add(std::max(now() - due, 0ns));
       if (now() > due + 1ms) due = now();  // a hole in the scheduler is counted once
     }
-  }).join();
+  });
   const Fitness verdict = verdict_on(late.quantile(0.99), 200us, 500us);
   return {at_priority ? "wake-up at SCHED_FIFO 80" : "wake-up", quantiles(late), verdict,
           verdict == Fitness::good
@@ -120,6 +144,7 @@ Finding round_trip_finding(const BusOptions& bus, nanoseconds span) try {
   Histogram times;
   int lost = 0;
   for (const Instant start = now(); now() < start + span;) {
+    work_goes_on();
     if (const auto time = pinger.exchange())
       times.add(*time);
     else
@@ -142,7 +167,10 @@ Finding publishers_finding(const BusOptions& bus, nanoseconds span) try {
     ear[i].channel = ears.channel(std::array{"STATE", "REFERENCE", "COMMAND"}[i]);
     ears.subscribe<&Ear::on_message>(ear[i].channel, &ear[i]);
   }
-  for (const Instant end = now() + span; now() < end;) ears.wait(end, stop);
+  for (const Instant end = now() + span; now() < end;) {
+    work_goes_on();
+    ears.wait(std::min(end, now() + kLook), stop);
+  }
   std::string who;
   for (const Ear& one : ear)
     for (const auto& text : one.heard) who += (who.empty() ? "" : ", ") + text;

@@ -7,8 +7,14 @@
 
 namespace mixloop {
 
-Conductor::Conductor(int n, std::int64_t session, bool paused)
-    : inbox_(n), session_(session), paused_(paused) {}
+namespace {
+
+constexpr double kSlowest = 1e-6;  // slower, a tick's due time is past what the clock counts
+
+}  // namespace
+
+Conductor::Conductor(int n, std::int64_t session, bool paused, bool real_time)
+    : inbox_(n), session_(session), paused_(paused), real_time_(real_time) {}
 
 std::optional<Reject> Conductor::hear(Bytes bytes) {
   if (const auto cause = inbox_.read(bytes)) return cause;
@@ -31,7 +37,7 @@ std::optional<Reject> Conductor::hear(Bytes bytes) {
       reset_ = true;
       break;
     case sim_control_t::ACTION_SPEED:
-      if (control.speed < 0) return Reject::tick;
+      if (control.speed < kSlowest && (control.speed != 0 || real_time_)) return Reject::tick;
       speed_ = control.speed;
       break;
     default:  // END is the plant's own

@@ -12,7 +12,8 @@ namespace mixloop {
 /// session, and the plant's own, are left alone.
 class Conductor {
  public:
-  Conductor(int n, std::int64_t session, bool paused);
+  /// `real_time`: there is no "as fast as it goes".
+  Conductor(int n, std::int64_t session, bool paused, bool real_time = false);
 
   /// Takes a SIM_CONTROL message; the cause where it is dropped.
   std::optional<Reject> hear(Bytes bytes);
@@ -27,7 +28,7 @@ class Conductor {
  private:
   Inbox<sim_control_t> inbox_;
   std::int64_t session_;
-  bool paused_, reset_ = false;
+  bool paused_, real_time_, reset_ = false;
   std::int64_t steps_ = 0;
   std::optional<double> speed_;
 };

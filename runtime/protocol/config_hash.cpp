@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/protocol/config_hash.hpp"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "notation/sha256.hpp"
 
 namespace mixloop {
+namespace {
+
+struct Part {
+  const char* name;
+  std::uint16_t ConfigHash::*hash;
+};
+constexpr std::array kParts = {Part{"rate", &ConfigHash::rate}, Part{"mechanism", &ConfigHash::mechanism},
+                               Part{"path", &ConfigHash::path},
+                               Part{"shared parameters", &ConfigHash::parameters}};
+
+}  // namespace
 
 std::uint16_t hash16(std::string_view canonical) {
   return static_cast<std::uint16_t>(std::stoul(sha256_hex(canonical).substr(0, 4), nullptr, 16));
@@ -30,16 +43,25 @@ ConfigHash unpack_config(std::int64_t config) {
 }
 
 std::string name_difference(std::int64_t mine, std::int64_t theirs) {
-  const ConfigHash a = unpack_config(mine), b = unpack_config(theirs);
   std::vector<std::string> names;
-  if (a.rate != b.rate) names.emplace_back("rate");
-  if (a.mechanism != b.mechanism) names.emplace_back("mechanism");
-  if (a.path != b.path) names.emplace_back("path");
-  if (a.parameters != b.parameters) names.emplace_back("shared parameters");
+  for (const Part& part : kParts)
+    if (unpack_config(mine).*part.hash != unpack_config(theirs).*part.hash) names.emplace_back(part.name);
 
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::string describe_difference(std::int64_t mine, std::int64_t theirs, const ConfigWords& words) {
+  std::string text;
+  for (std::size_t i = 0; i < kParts.size(); ++i) {
+    const auto [name, hash] = kParts[i];
+    const std::uint16_t here = unpack_config(mine).*hash, there = unpack_config(theirs).*hash;
+    if (here == there) continue;
+    text += fmt::format("{}{} is {} here (hash {:04x}), there another (hash {:04x})",
+                        text.empty() ? "" : "; ", name, words[i].empty() ? "one" : words[i], here, there);
+  }
   return text;
 }
 

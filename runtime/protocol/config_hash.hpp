@@ -32,4 +32,11 @@ ConfigHash unpack_config(std::int64_t config);
 /// Names what differs, as "rate and path"; empty where nothing does.
 std::string name_difference(std::int64_t mine, std::int64_t theirs);
 
+/// What one process has of each part of the config, in words for people; may be empty.
+using ConfigWords = std::array<std::string, 4>;
+
+/// What differs, with the hashes of both sides and the words of this one:
+/// "rate is 1000 Hz here (hash 0001), there another (hash 0002)".
+std::string describe_difference(std::int64_t mine, std::int64_t theirs, const ConfigWords& words);
+
 }  // namespace mixloop

@@ -44,6 +44,7 @@ Ending ControllerPeer::run() {
       case PlantLink::Event::fresh:
         if (link_.first_of_session()) begin_session();
         asked_ = now();
+        dropped_.forget();
         silence_answered_ = false;
         break;
       case PlantLink::Event::repeated:
@@ -169,31 +170,54 @@ void ControllerPeer::repeat() {
 // At the start the plant decides how long all wait for each other; later a planner that is silent while the
 // plant goes on asking is lost.
 void ControllerPeer::require_planner() const {
-  if (planner_agreement_.refuted())
+  const bool overdue = answered_ >= 0 && link_.latest() > answered_ && now() - asked_ >= options_.patience;
+  if (planner_agreement_.refuted() || (overdue && planner_agreement_.contradicted())) {
+    const std::int64_t mine = options_.config, theirs = planner_agreement_.theirs();
     throw RunFault("config_mismatch", "the planner on " + reference_channel_ + " was started with another " +
-                                          name_difference(options_.config, planner_agreement_.theirs()) +
-                                          " than this process");
-  if (answered_ < 0 || link_.latest() <= answered_) return;
-  if (now() - asked_ < options_.patience) return;
-  throw RunFault("lost_peer", "no reference for tick " + std::to_string(link_.latest()) + " on " +
-                                  reference_channel_ +
-                                  " while the plant goes on asking: the planner is missing");
+                                          name_difference(mine, theirs) + " than this process: " +
+                                          describe_difference(mine, theirs, options_.config_words) +
+                                          "; start both with the same experiment and the same --set");
+  }
+  if (overdue) lost_planner();
+}
+
+void ControllerPeer::lost_planner() const {
+  const Header expected{
+      .n = options_.n_u, .seq = link_.latest(), .session = link_.session(), .config = options_.config};
+  const std::string dropped = dropped_.text(expected);
+  throw RunFault("lost_peer",
+                 "no reference for tick " + std::to_string(link_.latest()) + " on " + reference_channel_ +
+                     " while the plant goes on asking" +
+                     (dropped.empty() ? "" : "; dropped there: " + dropped) +
+                     (dropped_.are_answers() ? ": the planner is there, but what it sends can't be taken"
+                                             : ": the planner is missing"));
 }
 
 void ControllerPeer::on_reference(Bytes bytes) {
-  const auto reject = [this](Reject cause) { link_.report.rejects.count(cause); };
-  if (const auto cause = inbox_.read(bytes)) return reject(*cause);
-  const reference_t& heard = inbox_.message;
-  const auto cause = link_.check_origin(heard.session, heard.config);
-  if (cause != Reject::session) planner_agreement_.hears(options_.config, heard.config);
-  if (cause) return reject(*cause);
-  if (heard.seq < 0) return reject(Reject::tick);
-  if (heard.session == link_.state().session && heard.seq <= answered_) return reject(Reject::stale);
-  if (heard.seq >= std::max<std::int64_t>(link_.latest(), 0) + kAhead) return reject(Reject::tick);
-  Kept& slot = kept(heard.seq);
-  if (slot.tick == heard.seq && slot.message.session == heard.session) return reject(Reject::stale);
-  slot.tick = heard.seq;
+  if (const auto cause = check_reference(bytes)) {
+    link_.report.rejects.count(*cause);
+    dropped_.count(*cause, bytes);
+    return;
+  }
+  Kept& slot = kept(inbox_.message.seq);
+  slot.tick = inbox_.message.seq;
   std::swap(slot.message, inbox_.message);
+}
+
+/// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
+std::optional<Reject> ControllerPeer::check_reference(Bytes bytes) {
+  if (const auto header = peek(bytes); header && fingerprint(bytes) == reference_t::getHash() &&
+                                       link_.check_origin(header->session, header->config) != Reject::session)
+    planner_agreement_.hears(options_.config, header->config);
+  if (const auto cause = inbox_.read(bytes)) return cause;
+  const reference_t& heard = inbox_.message;
+  if (const auto cause = link_.check_origin(heard.session, heard.config)) return cause;
+  if (heard.seq < 0) return Reject::tick;
+  if (heard.session == link_.state().session && heard.seq <= answered_) return Reject::stale;
+  if (heard.seq >= std::max<std::int64_t>(link_.latest(), 0) + kAhead) return Reject::tick;
+  const Kept& slot = kept(heard.seq);
+  if (slot.tick == heard.seq && slot.message.session == heard.session) return Reject::stale;
+  return std::nullopt;
 }
 
 }  // namespace mixloop

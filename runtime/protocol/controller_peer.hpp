@@ -74,7 +74,9 @@ class ControllerPeer {
   void fill_safe(command_t& message, std::int32_t flags) const;
   void repeat();
   void require_planner() const;
+  [[noreturn]] void lost_planner() const;
   void on_reference(Bytes bytes);
+  std::optional<Reject> check_reference(Bytes bytes);
 
   Bus& bus_;
   PeerOptions options_;
@@ -91,6 +93,7 @@ class ControllerPeer {
   bool drained_ = true;         // real time: nothing newer waits to be read
   bool silence_answered_ = false;
   ConfigAgreement planner_agreement_;
+  Dropped dropped_;  ///< REFERENCEs since the latest state came
 };
 
 }  // namespace mixloop

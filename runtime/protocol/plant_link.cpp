@@ -47,11 +47,18 @@ PlantLink::Event PlantLink::next(Instant until) {
 
 PlantLink::Event PlantLink::silence() {
   if (latest() >= options_.last_tick && !holds(state_)) return Event::over;  // its END got lost
-  throw RunFault("lost_peer", "nothing on " + state_channel_ + " for " +
-                                  (session_.heard() ? whole_milliseconds(options_.patience) + " after tick " +
-                                                          std::to_string(latest())
-                                                    : whole_milliseconds(options_.first_wait)) +
-                                  ": the plant is missing");
+  if (agreement_.contradicted()) refuse_config();
+  const std::string waited =
+      session_.heard() ? whole_milliseconds(options_.patience) + " after tick " + std::to_string(latest())
+                       : whole_milliseconds(options_.first_wait);
+  if (dropped_.rejects().total() == 0)
+    throw RunFault("lost_peer", "nothing on " + state_channel_ + " for " + waited + ": the plant is missing");
+  const Header expected{
+      .n = options_.n, .seq = latest() + 1, .session = session_.current(), .config = options_.config};
+  throw RunFault("lost_peer", "nothing that can be taken on " + state_channel_ + " for " + waited +
+                                  "; dropped there: " + dropped_.text(expected) +
+                                  (dropped_.are_answers() ? ": a plant is there, but not one for this process"
+                                                          : ": the plant is missing"));
 }
 
 PlantLink::Event PlantLink::judge() {
@@ -60,11 +67,16 @@ PlantLink::Event PlantLink::judge() {
     return Event::over;
   }
   if (end_heard_) return Event::over;
-  if (agreement_.refuted())
-    throw RunFault("config_mismatch", "the plant on " + state_channel_ + " was started with another " +
-                                          name_difference(options_.config, agreement_.theirs()) +
-                                          " than this process");
+  if (agreement_.refuted()) refuse_config();
   return heard_;
+}
+
+void PlantLink::refuse_config() const {
+  const std::int64_t mine = options_.config, theirs = agreement_.theirs();
+  throw RunFault("config_mismatch", "the plant on " + state_channel_ + " was started with another " +
+                                        name_difference(mine, theirs) + " than this process: " +
+                                        describe_difference(mine, theirs, options_.config_words) +
+                                        "; start both with the same experiment and the same --set");
 }
 
 Header PlantLink::answer_header(std::int64_t tick, std::int64_t utime) const {
@@ -82,18 +94,17 @@ std::optional<Reject> PlantLink::check_origin(std::int64_t session, std::int64_t
 }
 
 void PlantLink::on_state(Bytes bytes) {
-  const auto reject = [this](Reject cause) { report.rejects.count(cause); };
-  if (const auto cause = inbox_.read(bytes)) return reject(*cause);
+  if (const auto cause = check_state(bytes)) {
+    report.rejects.count(*cause);
+    dropped_.count(*cause, bytes);
+    return;
+  }
   const state_t& heard = inbox_.message;
   const Instant at = now();
-  if (!session_.would_follow(heard.session, at)) return reject(Reject::session);
-  if (!agreement_.hears(options_.config, heard.config)) return reject(Reject::config);
-  if (heard.seq < 0 || heard.seq > kFarthestTick || (heard.seq > options_.last_tick && !holds(heard)))
-    return reject(Reject::tick);
-
   deadline_ = at + options_.patience;
+  dropped_.forget();
   const bool first = session_.follow(heard.session, at);
-  if (!first && heard.seq < latest()) return reject(Reject::stale);
+  if (!first && heard.seq < latest()) return report.rejects.count(Reject::stale);
   if (!first && heard.seq == latest()) {
     heard_ = Event::repeated;
     return;
@@ -104,6 +115,21 @@ void PlantLink::on_state(Bytes bytes) {
   report.latest = state_.seq;
   report.session = state_.session;
   if (first) report.joined_late = state_.seq > 0;
+}
+
+/// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
+std::optional<Reject> PlantLink::check_state(Bytes bytes) {
+  const auto header = peek(bytes);
+  const bool ours =
+      header && fingerprint(bytes) == state_t::getHash() && session_.would_follow(header->session, now());
+  const bool agrees = ours && agreement_.hears(options_.config, header->config);
+  if (const auto cause = inbox_.read(bytes)) return cause;
+  if (!ours) return Reject::session;
+  if (!agrees) return Reject::config;
+  const state_t& heard = inbox_.message;
+  if (heard.seq < 0 || heard.seq > kFarthestTick || (heard.seq > options_.last_tick && !holds(heard)))
+    return Reject::tick;
+  return std::nullopt;
 }
 
 void PlantLink::on_control(Bytes bytes) {

@@ -10,6 +10,8 @@
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/stop_switch.hpp"
 #include "runtime/protocol/config_agreement.hpp"
+#include "runtime/protocol/config_hash.hpp"
+#include "runtime/protocol/dropped.hpp"
 #include "runtime/protocol/ending.hpp"
 #include "runtime/protocol/session.hpp"
 
@@ -21,6 +23,7 @@ struct PeerOptions {
   int n_u = 0;               ///< motors: what COMMAND's and REFERENCE's n counts
   std::int64_t session = 0;  ///< 0: take the one that is heard
   std::int64_t config = 0;   ///< see config_hash.hpp
+  ConfigWords config_words;  ///< what it is of
   double rate_hz = 1000;     ///< ticks a second of plant time
   /// Later ticks are rejected, but for a plant that holds; and a plant may fall silent after it.
   std::int64_t last_tick = std::numeric_limits<std::int64_t>::max();
@@ -76,6 +79,8 @@ class PlantLink {
  private:
   Event silence();
   Event judge();
+  [[noreturn]] void refuse_config() const;
+  std::optional<Reject> check_state(Bytes bytes);
   void on_state(Bytes bytes);
   void on_control(Bytes bytes);
   void on_stop(Bytes) { stop_heard_ = true; }
@@ -93,6 +98,7 @@ class PlantLink {
   Event heard_ = Event::other;
   bool first_of_session_ = false;
   ConfigAgreement agreement_;
+  Dropped dropped_;  ///< STATEs since the last that was taken
   bool end_heard_ = false, stop_heard_ = false;
   Ending ending_ = Ending::finished;
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "runtime/clock/clock.hpp"
+#include "runtime/protocol/config_hash.hpp"
 
 namespace mixloop {
 
@@ -17,6 +18,7 @@ struct PlantOptions {
   double speed = 0;            ///< plant seconds a real second; 0: as fast as it goes
   std::int64_t session = 0;    ///< 0: draw one
   std::int64_t config = 0;     ///< see config_hash.hpp
+  ConfigWords config_words;    ///< what it is of
   bool truth = false;          ///< publish TRUTH
   bool hold = false;           ///< go on past the last tick until stopped
   bool paused = false;         ///< begin paused, at tick 0

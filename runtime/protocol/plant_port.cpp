@@ -15,6 +15,8 @@ namespace {
 // Long enough to be sent five times more when datagrams get lost, short enough not to be noticed.
 constexpr int kRepeats = 6;
 constexpr auto kRepeatInterval = std::chrono::milliseconds(1);
+// A controller that had agreed and is heard to differ may only have been doubled: the right one has so long.
+constexpr auto kLongSilence = std::chrono::seconds(1);
 // A plant that is held by the operator goes on being heard.
 constexpr auto kHeldInterval = std::chrono::milliseconds(100);
 
@@ -33,7 +35,7 @@ PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& optio
       plant_(plant),
       state_flags_(state_flags | (options.hold ? state_t::FLAG_HOLD : 0)),
       pacer_(options.rate_hz, options.speed, slack),
-      conductor_(options.n, options_.session, options.paused),
+      conductor_(options.n, options_.session, options.paused, (state_flags & state_t::FLAG_REAL_TIME) != 0),
       state_(options.n),
       truth_(options.n),
       control_(options.n),
@@ -67,6 +69,7 @@ bool PlantPort::publish_state(std::int64_t tick, std::int32_t flags) {
   if (!is_finite(message)) return false;
   tick_ = tick;
   sent_ = now();
+  dropped_.forget();
   bus_.publish(state_channel_, state_.encode());
   return true;
 }
@@ -82,6 +85,7 @@ void PlantPort::publish_truth(std::int64_t tick, std::int32_t flags) {
 }
 
 void PlantPort::publish_timing(const DeadlineCounts& deadlines) {
+  deadlines_ = deadlines;
   timing_.send_where_due(bus_, header_of(state_.message), report, deadlines);
 }
 
@@ -130,9 +134,11 @@ PlantPort::Answer PlantPort::wait_for_command() {
       return answer;
     }
     const nanoseconds silence = now() - began;
+    if (silence >= std::min<nanoseconds>(kLongSilence, longest) && agreement_.contradicted()) refuse_config();
     if (silence >= longest) lost_peer(longest);
     if (silence >= longest / 4) listen_for_planner();
     bus_.publish(state_channel_, state_.encoded());
+    publish_timing(deadlines_);
     ++resent;
     interval = std::min(2 * interval, options_.slowest_resend);
     resend = std::min(now() + interval, began + longest);
@@ -189,6 +195,7 @@ PlantPort::Answer PlantPort::wait_while_held() {
     require_agreement();
     if (wake != Wake::deadline && now() < repeat) continue;
     bus_.publish(state_channel_, state_.encoded());
+    publish_timing(deadlines_);
     repeat = now() + kHeldInterval;
   } while (!conductor_.lets_go());
   return Answer::due;
@@ -209,34 +216,57 @@ void PlantPort::stop_listening() {
 }
 
 void PlantPort::require_agreement() const {
-  if (!agreement_.refuted()) return;
+  if (agreement_.refuted()) refuse_config();
+}
+
+void PlantPort::refuse_config() const {
+  const std::int64_t mine = options_.config, theirs = agreement_.theirs();
   throw RunFault("config_mismatch",
                  "the controller that answers on " + command_channel_ + " was started with another " +
-                     name_difference(options_.config, agreement_.theirs()) + " than this plant");
+                     name_difference(mine, theirs) +
+                     " than this plant: " + describe_difference(mine, theirs, options_.config_words) +
+                     "; start both with the same experiment and the same --set");
 }
 
 void PlantPort::lost_peer(nanoseconds waited) const {
+  const Header expected{
+      .n = options_.n_u, .seq = tick_, .session = options_.session, .config = options_.config};
+  const std::string dropped = dropped_.text(expected);
   const std::string reference_channel = bus_.channel("REFERENCE");
-  throw RunFault("lost_peer",
-                 "no answer to tick " + std::to_string(tick_) + " on " + command_channel_ + " for " +
-                     std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(waited).count()) +
-                     " ms; " + reference_channel +
-                     (planner_heard_ ? " answers, so the controller is missing"
-                                     : " is silent too, so the planner is missing, or both are"));
+  throw RunFault(
+      "lost_peer",
+      "no answer to tick " + std::to_string(tick_) + " on " + command_channel_ + " for " +
+          std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(waited).count()) + " ms; " +
+          (dropped.empty() ? "" : "dropped there: " + dropped + "; ") +
+          (dropped_.are_answers() ? "the controller is there, but what it answers can't be taken"
+           : planner_heard_       ? reference_channel + " answers, so the controller is missing"
+                            : reference_channel + " is silent too, so the planner is missing, or both are"));
 }
 
 void PlantPort::on_command(Bytes bytes) {
-  const auto reject = [this](Reject cause) { report.rejects.count(cause); };
-  // Another answer must not overwrite one that waits to be applied.
-  if (command_heard_) return reject(Reject::stale);
-  if (const auto cause = inbox_.read(bytes)) return reject(*cause);
-  const command_t& command = inbox_.message;
-  if (command.session != options_.session) return reject(Reject::session);
-  if (!agreement_.hears(options_.config, command.config)) return reject(Reject::config);
-  if (command.seq < oldest_) return reject(Reject::stale);
-  if (command.seq > tick_) return reject(Reject::tick);
+  if (const auto cause = check_command(bytes)) {
+    report.rejects.count(*cause);
+    dropped_.count(*cause, bytes);
+    return;
+  }
   command_heard_ = true;
-  if ((command.flags & command_t::FLAG_JOINED_LATE) != 0) ++report.joined_late;
+  if ((inbox_.message.flags & command_t::FLAG_JOINED_LATE) != 0) ++report.joined_late;
+}
+
+/// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
+std::optional<Reject> PlantPort::check_command(Bytes bytes) {
+  // Another answer must not overwrite one that waits to be applied.
+  if (command_heard_) return Reject::stale;
+  if (const auto header = peek(bytes);
+      header && fingerprint(bytes) == command_t::getHash() && header->session == options_.session)
+    agreement_.hears(options_.config, header->config);
+  if (const auto cause = inbox_.read(bytes)) return cause;
+  const command_t& command = inbox_.message;
+  if (command.session != options_.session) return Reject::session;
+  if (command.config != options_.config) return Reject::config;
+  if (command.seq < oldest_) return Reject::stale;
+  if (command.seq > tick_) return Reject::tick;
+  return std::nullopt;
 }
 
 void PlantPort::on_control(Bytes bytes) {

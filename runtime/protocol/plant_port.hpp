@@ -9,6 +9,7 @@
 #include "runtime/clock/stop_switch.hpp"
 #include "runtime/protocol/conductor.hpp"
 #include "runtime/protocol/config_agreement.hpp"
+#include "runtime/protocol/dropped.hpp"
 #include "runtime/protocol/ending.hpp"
 #include "runtime/protocol/plant_options.hpp"
 #include "runtime/protocol/plant_side.hpp"
@@ -32,7 +33,8 @@ class PlantPort {
   /// False where the sensors aren't finite: that tick must not reach the bus. `flags` beside those of all.
   bool publish_state(std::int64_t tick, std::int32_t flags = 0);
   void publish_truth(std::int64_t tick, std::int32_t flags = 0);
-  /// TIMING, where it is due; `deadlines` is what real time adds.
+  /// TIMING, where it is due, as during every wait that repeats the STATE; `deadlines` is what real time
+  /// adds.
   void publish_timing(const DeadlineCounts& deadlines);
   /// Says that it is over.
   void send_end(Ending ending);
@@ -68,6 +70,8 @@ class PlantPort {
   void listen_for_planner();
   void stop_listening();
   void require_agreement() const;
+  [[noreturn]] void refuse_config() const;
+  std::optional<Reject> check_command(Bytes bytes);
   [[noreturn]] void lost_peer(nanoseconds waited) const;
 
   void on_command(Bytes bytes);
@@ -99,6 +103,8 @@ class PlantPort {
   bool listens_for_planner_ = false;
   bool planner_heard_ = false;
   ConfigAgreement agreement_;
+  Dropped dropped_;  // COMMANDs since the latest STATE was first sent
+  DeadlineCounts deadlines_;
 };
 
 }  // namespace mixloop

@@ -37,6 +37,21 @@ TEST(Report, IsOneFileOfAllResults) {
   EXPECT_THAT(page, testing::Not(testing::ContainsRegex("(src|href)=\"?http")));
 }
 
+TEST(Report, SaysWhyARunEndedEarlyAndWhatItsPlantDropped) {
+  if (!has_pages()) GTEST_SKIP() << "built without npm";
+  ScratchFolder folder;
+  const std::string one = simulated(folder, "one");
+  auto result = nlohmann::json::parse(bytes_of(one + "/result.json"));
+  result["error"] = {{"code", "lost_peer"}, {"message", "no answer to tick 7"}, {"where", ""}};
+  result["rejected_by_cause"] = {{"not_finite", 67}, {"stale", 5}, {"session", 0}};
+  std::ofstream(one + "/result.json") << result;
+  Command command({bin("mixloop"), "report", one, "--json"});
+  ASSERT_EQ(command.wait(), 0) << command.out() << command.err();
+  EXPECT_THAT(command.json()["results"][0]["notes"].dump(),
+              AllOf(HasSubstr("The run ended by a fault: no answer to tick 7."),
+                    HasSubstr("The plant dropped messages: 67 not_finite.")));
+}
+
 TEST(Report, StandsInTheResultsFolder) {
   if (!has_pages()) GTEST_SKIP() << "built without npm";
   ScratchFolder folder;

@@ -203,6 +203,49 @@ TEST(Run, SaysThatAPeerIsLost) {
   EXPECT_THAT(command.json()["error"]["message"].get<std::string>(), HasSubstr("MIXLOOP_COMMAND"));
 }
 
+TEST(Run, SaysAtOnceWhatItWaitsForAndHowThatIsStarted) {
+  Command command({bin("mixloop"), "run", experiment("paper"), "--without", "controller", "--set",
+                   "parameters.payload=4 kg", "--set", "expect={}", "--channel-prefix", "OURS_"});
+  ASSERT_TRUE(eventually([&] { return command.err().find("mixloop-controller") != std::string::npos; }))
+      << command.err();
+  const std::string said = command.err();
+  EXPECT_THAT(said, HasSubstr("waiting up to 60 s for a controller, to be heard on OURS_COMMAND"));
+  const std::string line = said.substr(said.find("  " + bin("mixloop-controller")) + 2);
+  Command ours({"/bin/sh", "-c", line.substr(0, line.find('\n'))});
+  EXPECT_EQ(command.wait(), 0) << command.err();
+  EXPECT_THAT(command.err(), HasSubstr("all are there"));
+  EXPECT_EQ(ours.wait(), 0) << ours.err();
+}
+
+TEST(Run, WaitsAsLongAsItIsTold) {
+  Command command(
+      {bin("mixloop"), "run", experiment("paper"), "--without", "planner", "--first-wait", "0.5"});
+  EXPECT_EQ(command.wait(std::chrono::seconds(20)), 3);
+  EXPECT_THAT(command.err(), HasSubstr("waiting up to 0.5 s for a planner"));
+  EXPECT_THAT(command.err(), HasSubstr("MIXLOOP_REFERENCE is silent too"));
+}
+
+TEST(Run, TakesAStrangersPlant) {
+  Command command({bin("mixloop"), "run", experiment("paper"), "--without", "plant"});
+  ASSERT_TRUE(eventually([] { return listeners() >= 3; })) << command.err();
+  Command plant({bin("mixloop-plant"), experiment("paper"), "--json"});
+  EXPECT_EQ(plant.wait(), 0) << plant.err();
+  EXPECT_EQ(plant.json()["trajectory_sha256"], simulated_hash());
+  EXPECT_EQ(command.wait(), 0) << command.err();
+  EXPECT_THAT(command.err(), HasSubstr("all are there"));
+}
+
+TEST(Run, NamesTheAnswersThatItsPlantCouldNotTake) {
+  Command command(
+      {bin("mixloop"), "run", experiment("paper"), "--json", "--without", "controller", "--first-wait", "2"});
+  Command other({bin("mixloop-controller"), experiment("paper"), "--set", "parameters.payload=4 kg"});
+  EXPECT_EQ(other.wait(), 3);
+  EXPECT_THAT(
+      other.err(),
+      HasSubstr("another shared parameters than this process: shared parameters is payload = 4 here"));
+  EXPECT_EQ(command.wait(), 3);
+}
+
 TEST(Run, GoesOnHoldingUntilItIsStopped) {
   Command command({bin("mixloop"), "run", experiment("paper"), "--hold", "--speed", "5"});
   ASSERT_TRUE(eventually([&] { return command.out().find("Holding the end point") != std::string::npos; }))

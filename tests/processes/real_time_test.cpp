@@ -170,6 +170,15 @@ TEST(RunInRealTime, ObeysAFaultOnlyWhereThatIsAllowed) {
   }
 }
 
+TEST(RunInRealTime, HasNoSpeedMaxAndControlSaysSo) {
+  Command run(real_time({"--paused"}));
+  Command speed({bin("mixloop"), "control", "speed", "max", "--patience", "60"});
+  EXPECT_EQ(speed.wait(), 2);
+  EXPECT_THAT(speed.err(), HasSubstr("in real time there is no 'max'"));
+  control({"stop"});
+  run.wait();
+}
+
 TEST(RunInRealTime, SaysThatControlHasNoPlant) {
   Command command({bin("mixloop"), "control", "pause", "--patience", "0.1", "--json"});
   EXPECT_EQ(command.wait(), 3);

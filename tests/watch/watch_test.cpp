@@ -213,6 +213,44 @@ TEST(Watch, CountsWhatItCannotTake) {
   EXPECT_EQ(view.motors[0].torque.worst, 0);
 }
 
+TEST(Watch, TellsAPlantThatWaitsFromOneThatIsSilentOrPaused) {
+  Script script;
+  const auto condition = [&] { return script.watch.view(script.at).condition; };
+  script.state(4, {0, 0, 0});
+  for (int i = 0; i < 12; ++i) {  // its STATE again and again, and answers that it can't take
+    script.at += milliseconds(100);
+    script.state(4, {0, 0, 0});
+    script.command(4, {std::nan(""), 0, 0});
+    script.command(3, {0, 0, 0});
+  }
+  EXPECT_EQ(condition(), Condition::waiting);
+  timing_t timing = script.message<timing_t>(4);
+  timing.rejected_not_finite = 12, timing.rejected_dimension = 3;
+  script.send(Channel::timing, timing);
+  EXPECT_THAT(script.watch.view(script.at).warnings,
+              ElementsAre("the plant has dropped 3 dimension, 12 not_finite"));
+  EXPECT_THAT(script.text(),
+              AllOf(HasSubstr("waiting: no COMMAND that answers tick 4"), HasSubstr("12 not_finite")));
+  script.command(4, {0, 0, 0});
+  EXPECT_EQ(condition(), Condition::paused);
+  script.at += milliseconds(1100);
+  EXPECT_EQ(condition(), Condition::silent);
+}
+
+TEST(Watch, NamesWhatTheOthersWereStartedWith) {
+  Script script;
+  script.state(0, {0, 0, 0});
+  auto command = script.message<command_t>(0);
+  command.config = 1LL << 48 | 1;
+  script.send(Channel::command, command);
+  auto reference = script.message<reference_t>(0);
+  reference.config = 1LL << 16;
+  script.send(Channel::reference, reference);
+  EXPECT_THAT(script.watch.view(script.at).warnings,
+              ElementsAre("the controller was started with another rate and shared parameters than the plant",
+                          "the planner was started with another path than the plant"));
+}
+
 TEST(Watch, SaysHowTheRunStands) {
   Script script;
   const auto condition = [&] { return script.watch.view(script.at).condition; };

@@ -50,6 +50,14 @@ TEST(Conductor, GivesANewSpeedOnce) {
   EXPECT_EQ(conductor.new_speed(), std::nullopt);
 }
 
+TEST(Conductor, HasNoSpeedThatNoClockCanKeep) {
+  Conductor lockstep(kN, kSession, false), real_time(kN, kSession, false, true);
+  EXPECT_EQ(told(lockstep, sim_control_t::ACTION_SPEED, 0, 0), std::nullopt);
+  EXPECT_EQ(told(real_time, sim_control_t::ACTION_SPEED, 0, 0), Reject::tick);
+  EXPECT_EQ(told(lockstep, sim_control_t::ACTION_SPEED, 0, 1e-300), Reject::tick);
+  EXPECT_EQ(real_time.new_speed(), std::nullopt);
+}
+
 TEST(Conductor, DropsWhatIsNotForIt) {
   Conductor conductor(kN, kSession, false);
   EXPECT_EQ(told(conductor, sim_control_t::ACTION_PAUSE, 0, 0, kSession + 1), Reject::session);

@@ -74,7 +74,7 @@ class Plant : public testing::Test {
   }
 
   Scripted side_;
-  ScriptedPeer script_{"STATE", "TRUTH", "SIM_CONTROL"};
+  ScriptedPeer script_{"STATE", "TRUTH", "SIM_CONTROL", "TIMING"};
   std::optional<RunningPeer<LockstepPlant>> plant_;
 };
 
@@ -206,6 +206,81 @@ TEST_F(Plant, SaysThatTheControllerIsMissingWhereThePlannerAnswers) {
     std::this_thread::sleep_for(5ms);
   }
   EXPECT_THAT(plant_->fault(), HasSubstr("MIXLOOP_REFERENCE answers, so the controller is missing"));
+}
+
+TEST_F(Plant, NamesTheAnswersThatItCouldNotTake) {
+  PlantOptions o = options(1);
+  o.patience = 300ms;
+  start(o);
+  expect_state(0);
+  script_.send("COMMAND", command(0));
+  expect_state(1);
+  const auto spoil = [this](int times, auto change) {
+    auto c = command(1);
+    change(c);
+    for (int i = 0; i < times; ++i) script_.send("COMMAND", c);
+  };
+  spoil(60, [](command_t& c) { c.tau_commanded[1] = NAN; });
+  spoil(4, [](command_t& c) { c = ScriptedPeer::sized<command_t>(1, 2); });
+  spoil(2, [](command_t& c) { c.session = 5; });
+  spoil(1, [](command_t& c) { c.config ^= 1; });
+  spoil(1, [](command_t& c) { c.seq = 9; });
+  const std::string fault = plant_->fault();
+  EXPECT_THAT(fault,
+              StartsWith("lost_peer: no answer to tick 1 on MIXLOOP_COMMAND for 300 ms; dropped there: "));
+  EXPECT_THAT(fault, HasSubstr("4 dimension (n is 2, expected 3), 60 not_finite (NaN or infinity), "
+                               "2 session (5, expected 77), 1 config (another shared parameters), "
+                               "1 tick (9, which can't be; expected 1)"));
+  EXPECT_THAT(fault, HasSubstr("the controller is there, but what it answers can't be taken"));
+  expect_end(sim_control_t::REASON_FAULT, 0);
+}
+
+TEST_F(Plant, SaysByTimingWhatItDropsWhileItWaits) {
+  start(options(1));
+  expect_state(0);
+  auto c = command(0);
+  c.tau_commanded[1] = NAN;
+  script_.send("COMMAND", c);
+  std::optional<timing_t> timing;
+  do timing = script_.next<timing_t>("TIMING");
+  while (timing && timing->rejected_not_finite == 0);
+  ASSERT_TRUE(timing);
+  EXPECT_EQ(timing->rejected_not_finite, 1);
+}
+
+TEST_F(Plant, RefusesByNameAControllerThatComesToDifferLater) {
+  PlantOptions o = options(5);
+  o.config_words = {"1000 Hz", "robot.yaml", "a line", "payload = 5"};
+  start(o);
+  expect_state(0);
+  script_.send("COMMAND", command(0));
+  expect_state(1);
+  auto other = command(1);
+  other.config ^= 1LL << 48;
+  std::vector<double>(2).swap(other.tau_commanded);  // and of another mechanism's n
+  other.n = 2;
+  other.config ^= 1LL << 32;
+  while (plant_->running()) {
+    script_.send("COMMAND", other);
+    std::this_thread::sleep_for(20ms);
+  }
+  const std::string fault = plant_->fault();
+  EXPECT_THAT(fault, StartsWith("config_mismatch: "));
+  EXPECT_THAT(fault,
+              HasSubstr("another rate and mechanism than this plant: rate is 1000 Hz here (hash 0001), "
+                        "there another (hash 0000); mechanism is robot.yaml here"));
+}
+
+TEST_F(Plant, IsNotEndedByAnotherControllerWhileTheRightOneAnswers) {
+  start(options(30));
+  auto other = command(0);
+  other.config ^= 1;
+  for (std::int64_t k = 0; k <= 30; ++k) {
+    expect_state(k);
+    script_.send("COMMAND", command(k));
+    for (int i = 0; i < 3; ++i) script_.send("COMMAND", other);
+  }
+  EXPECT_EQ(plant_->ending(), Ending::finished);
 }
 
 TEST_F(Plant, HonoursAStopFromAnyoneEvenAMalformedOne) {

@@ -269,6 +269,46 @@ TEST_F(Controller, NamesThePlannerWhenOnlyThatIsLost) {
   EXPECT_THAT(peer_->fault(), HasSubstr("no reference for tick 1 on MIXLOOP_REFERENCE"));
 }
 
+TEST_F(Controller, NamesTheReferencesThatItCouldNotTake) {
+  PeerOptions options = kOptions;
+  options.patience = 500ms;
+  start(options);
+  expect_answer(0, 0);
+  auto reference = ScriptedPeer::message<reference_t>(1);
+  reference.psid_desired[1] = NAN;
+  while (peer_->running()) {
+    script_.send_state(1);
+    script_.send("REFERENCE", reference);
+    std::this_thread::sleep_for(20ms);
+  }
+  const std::string fault = peer_->fault();
+  EXPECT_THAT(fault, StartsWith("lost_peer: no reference for tick 1 on MIXLOOP_REFERENCE"));
+  EXPECT_THAT(
+      fault,
+      HasSubstr(" not_finite (NaN or infinity): the planner is there, but what it sends can't be taken"));
+}
+
+TEST_F(Controller, NamesTheStatesThatItCouldNotTake) {
+  PeerOptions options = kOptions;
+  options.first_wait = 300ms;
+  start(options);
+  script_.send("STATE", ScriptedPeer::sized<state_t>(0, 4));
+  const std::string fault = peer_->fault();
+  EXPECT_THAT(
+      fault,
+      StartsWith(
+          "lost_peer: nothing that can be taken on MIXLOOP_STATE for 300 ms; dropped there: 1 dimension "
+          "(n is 4, expected 3)"));
+}
+
+TEST_F(Controller, RefusesByNameAPlantOfAnotherMechanismWhateverItsN) {
+  start();
+  auto state = ScriptedPeer::sized<state_t>(0, 4);
+  state.config ^= 1LL << 32;
+  for (int i = 0; i < 3; ++i) script_.send("STATE", state);
+  EXPECT_THAT(peer_->fault(), HasSubstr("another mechanism than this process"));
+}
+
 TEST_F(Controller, TakesSilenceAfterTheLastTickForTheEnd) {
   PeerOptions options = kOptions;
   options.last_tick = 0;

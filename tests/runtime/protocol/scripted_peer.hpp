@@ -11,6 +11,7 @@
 
 #include "notation/errors.hpp"
 #include "runtime/bus/bus.hpp"
+#include "runtime/protocol/ending.hpp"
 
 namespace mixloop {
 
@@ -35,12 +36,13 @@ class ScriptedPeer {
 
   template <class Message>
   static Message message(std::int64_t tick) {
-    Message m = blank<Message>(kScriptN);
-    set_header(m, {.n = kScriptN,
-                   .utime = 1000 * tick,
-                   .seq = tick,
-                   .session = kScriptSession,
-                   .config = kScriptConfig});
+    return sized<Message>(tick, kScriptN);
+  }
+  template <class Message>
+  static Message sized(std::int64_t tick, int n) {
+    Message m = blank<Message>(n);
+    set_header(
+        m, {.n = n, .utime = 1000 * tick, .seq = tick, .session = kScriptSession, .config = kScriptConfig});
     return m;
   }
 
