@@ -47,6 +47,10 @@ class AttachedListener {
     if (session_ == 0) session_ = state.session;
     if (state.session != session_ || state.seq <= latest_ || state.seq > plan_.ticks()) return;
     latest_ = state.seq;
+    if ((state.flags & state_t::FLAG_SAFE_STATE) != 0 && !safe_) {
+      safe_ = true;
+      recorder_.made_safe(latest_);
+    }
     over_ = over_ || !recorder_.state(latest_, state.psi_measured, state.psid_measured, 0.0);
   }
 
@@ -73,7 +77,7 @@ class AttachedListener {
   Inbox<command_t> commands_;
   Inbox<sim_control_t> controls_;
   std::int64_t session_ = 0, latest_ = -1, latest_complete_ = -1, complete_ = 0;
-  bool over_ = false;
+  bool over_ = false, safe_ = false;
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ void write_junit(const std::string& file, std::span<const Result> results) {
     auto* test = suite->InsertNewChildElement("testcase");
     test->SetAttribute("classname", "mixloop.track");
     test->SetAttribute("name", result.experiment.c_str());
-    test->SetAttribute("time", result.run ? result.run->wall_time : 0.0);
+    if (result.run) test->SetAttribute("time", result.run->wall_time);
     if (result.error) {
       ++errors;
       auto* element = test->InsertNewChildElement("error");
@@ -27,7 +27,7 @@ void write_junit(const std::string& file, std::span<const Result> results) {
     } else if (result.judged.verdict != Verdict::held) {
       ++failures;
       auto* element = test->InsertNewChildElement("failure");
-      std::string message;
+      std::string message(result.judged.missed.empty() ? name_of(result.judged.verdict) : "");
       for (const auto& line : result.judged.missed) message += (message.empty() ? "" : "; ") + line;
       element->SetAttribute("message", message.c_str());
     }

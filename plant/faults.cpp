@@ -44,6 +44,13 @@ bool may_change(const Scene& scene, int parameter) {
   return std::none_of(scene.end_effector.point.begin(), scene.end_effector.point.end(), uses);
 }
 
+std::int64_t first_tick_at(double time, double rate_hz) {
+  const double ticks = time * rate_hz;
+  return ticks < static_cast<double>(kLatest)
+             ? static_cast<std::int64_t>(std::ceil(ticks - 1e-9 * std::max(1.0, ticks)))
+             : kLatest;
+}
+
 const char* objection(const Fault& fault, const Scene& scene, double rate_hz) {
   const double magnitude = fault.magnitude;
   if (!std::isfinite(magnitude) || !std::isfinite(fault.at) || !std::isfinite(fault.duration))
@@ -156,14 +163,6 @@ Faults::State Faults::state() const {
   state.waiting.reserve(scheduled_.size() + kWaiting);
   for (const Fault& fault : scheduled_) queue(state, fault, 0);
   return state;
-}
-
-/// The first tick at or after a time.
-std::int64_t Faults::tick_at(double time) const {
-  const double ticks = time * rate_hz_;
-  return ticks < static_cast<double>(kLatest)
-             ? static_cast<std::int64_t>(std::ceil(ticks - 1e-9 * std::max(1.0, ticks)))
-             : kLatest;
 }
 
 void Faults::queue(State& state, const Fault& fault, std::int64_t earliest) const {

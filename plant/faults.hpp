@@ -51,6 +51,9 @@ std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool fri
 /// Whether a parameter's change can happen in a run: not where the mechanism's geometry depends on it.
 bool may_change(const Scene& scene, int parameter);
 
+/// The first tick at or after a time, s.
+std::int64_t first_tick_at(double time, double rate_hz);
+
 /// Why a fault can't be, in words; null where it can.
 const char* objection(const Fault& fault, const Scene& scene, double rate_hz);
 
@@ -125,7 +128,7 @@ class Faults {
   /// True where parameters or friction change.
   bool start(State& state, const Fault& fault, std::int64_t until) const;
   bool any_active(const State& state) const;
-  std::int64_t tick_at(double time) const;
+  std::int64_t tick_at(double time) const { return first_tick_at(time, rate_hz_); }
 
   std::vector<Fault> scheduled_;
   Chance chance_;
