@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands/attached.hpp"
 
-#include "loop/recorder.hpp"
+#include "loop/recorded_plant.hpp"
 #include "processes/bus_line.hpp"
 #include "runtime/bus/wire.hpp"
 
@@ -92,6 +92,7 @@ RunFault no_plant_heard(const Bus& bus, const std::string& which) {
 Result attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
                 const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
+  require_memory(experiment, plan);
   Bus bus(options);
   AttachedListener listener(experiment, plan, bus);
   const Instant start = now();

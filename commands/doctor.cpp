@@ -10,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/standard_output.hpp"
 #include "runtime/machine/fitness.hpp"
 
 namespace mixloop {
@@ -50,7 +51,7 @@ int run(const DoctorLine& options) {
     if (options.json) continue;
     fmt::print("{:<5} {:<25} {}\n", name_of(finding.verdict), finding.what, finding.value);
     if (!finding.mend.empty()) fmt::print("      {:<25} {}\n", "", finding.mend);
-    std::fflush(stdout);
+    flush_standard_output();
   }
   if (options.json)
     print_json({{"fit", fit}, {"findings", findings}});

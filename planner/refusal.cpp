@@ -7,6 +7,11 @@
 #include <cmath>
 
 namespace mixloop {
+namespace {
+
+constexpr double kTouching = 1e-9;  // m: nearer than that is at it
+
+}  // namespace
 
 std::string Refusal::where(double step) const {
   return fmt::format("{:.6g} s into the path, {}, ", step / itinerary_.step_rate(),
@@ -74,7 +79,7 @@ void Refusal::no_start(IkOutcome outcome, const Vector& nearest, double t) const
   if (outcome == IkOutcome::other_branch)
     throw InputError("crosses_branch", path_.vias[0].place,
                      start + "can be reached only on another branch than home's");
-  if (outcome == IkOutcome::singular) singular(0, nearest, t);
+  if (outcome == IkOutcome::singular || out_of_reach(0, t, nearest) < kTouching) singular(0, nearest, t);
   throw InputError("unreachable", path_.vias[0].place,
                    start + "is out of reach: " + reach_text(0, t, nearest));
 }
@@ -91,6 +96,8 @@ void Refusal::no_way(IkOutcome outcome, Follower& follower, double step) const {
     most = excess;
     farthest = at;
   }
+  // All of it can be reached: it is the way there that the motors don't know.
+  if (most < kTouching) singular(end, last, follower.time(end));
   throw InputError("unreachable", itinerary_.place(end),
                    where(end) + "it leaves what can be reached; " + where(farthest) + "it is " +
                        reach_text(farthest, follower.time(farthest), last));

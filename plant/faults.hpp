@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -53,6 +54,9 @@ bool may_change(const Scene& scene, int parameter);
 
 /// The first tick at or after a time, s.
 std::int64_t first_tick_at(double time, double rate_hz);
+
+/// What goes wrong, when and for how long: "motor psi2 is stuck from 0.3 s on, for 0.2 s".
+std::string to_string(const Fault& fault, const Scene& scene);
 
 /// Why a fault can't be, in words; null where it can.
 const char* objection(const Fault& fault, const Scene& scene, double rate_hz);

@@ -21,7 +21,8 @@ int run(const PlantLine& line) {
   const Plan plan = make_plan(loaded);
   const Experiment experiment = with_integrator_settled(loaded, plan);
   ReportLine report(line.report_fd);
-  if (!line.out.empty()) prepare_folder(line.out);
+  // Of `mixloop run` it has been done, and its log lies there.
+  if (!line.out.empty() && line.report_fd < 0) begin_run_folder(line.out);
   Bus bus(line.bus);
   for (std::int64_t session = line.session;;) {
     PlantSession plant(line, experiment, plan, report);
