@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,11 @@ namespace mixloop {
 class Recorder {
  public:
   Recorder(const Experiment& experiment, const Plan& plan);
+
+  /// What the record takes, all its ticks alike.
+  static std::size_t bytes_a_tick(const Scene& scene) {
+    return sizeof(double) * (2 * scene.independent.size() + 2 * scene.motors().size() + 1);
+  }
 
   /// Takes the state at tick k and the work done until then. False where the run has diverged: the position
   /// error is past its limit or something is not finite; then the tick is not recorded. Ticks past the plan's
@@ -56,6 +62,8 @@ class Recorder {
   }
   double* row(std::int64_t k) { return const_cast<double*>(std::as_const(*this).row(k)); }
   std::size_t width() const { return 2 * n_ + 2 * n_u_ + 1; }
+  bool judged(std::int64_t k) const { return k < safe_from_; }
+  void measure(std::int64_t k, std::span<const double> tau);
   bool diverged(std::int64_t k);
 
   const Plan& plan_;
@@ -70,6 +78,7 @@ class Recorder {
   std::vector<double> conditions_;  ///< rows of tick, friction, parameters: as it began, then each change
   std::vector<double> zero_, hand_;
   std::int64_t recorded_ = 0;
+  std::int64_t safe_from_ = std::numeric_limits<std::int64_t>::max();
   double error_ = 0, sum_of_squares_ = 0;
   std::int64_t errors_ = 0;
   Measures measures_;

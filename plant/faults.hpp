@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -69,6 +70,12 @@ void require_possible(const Fault& fault, const FaultGround& ground);
 /// `friction`: there is some that can change; `values`: the plant's parameters.
 std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool friction, double rate_hz,
                                const std::vector<double>& values);
+
+/// The first tick at or after a time, s.
+std::int64_t first_tick_at(double time, double rate_hz);
+
+/// What goes wrong, when and for how long: "motor psi2 is stuck from 0.3 s on, for 0.2 s".
+std::string to_string(const Fault& fault, const Scene& scene);
 
 /// One scalar's way through a fault, tick by tick. Within a tick it may be asked again, with another value:
 /// the last one counts.
@@ -142,7 +149,7 @@ class Faults {
   /// True where parameters or friction change.
   bool start(State& state, const Fault& fault, std::int64_t until) const;
   bool any_active(const State& state) const;
-  std::int64_t tick_at(double time) const;
+  std::int64_t tick_at(double time) const { return first_tick_at(time, rate_hz_); }
 
   std::vector<Fault> scheduled_;
   Chance chance_;

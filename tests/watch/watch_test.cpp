@@ -339,11 +339,29 @@ TEST(WatchText, StaysWithinAnySize) {
   EXPECT_THAT(text_of(busy(40), 80, 100), AllOf(HasSubstr("\n40 "), Not(HasSubstr("more: a taller"))));
 }
 
+TEST(WatchText, IsWholeWhereThereIsNoWidth) {
+  WatchView view = busy(3);
+  view.warnings = {std::string(200, 'w')};
+  view.channels[0].name = std::string(40, 'c');
+  std::string text;
+  for (const Line& line : whole_watch_lines(view)) text += to_text(line) + '\n';
+  EXPECT_THAT(text, AllOf(HasSubstr(std::string(200, 'w')), HasSubstr(std::string(40, 'c') + " ")));
+}
+
 TEST(WatchText, SaysThatNoTimingWasHeard) {
   Script script;
   script.state(0, {0, 0, 0});
   EXPECT_THAT(script.text(), HasSubstr("no TIMING heard yet"));
   EXPECT_THAT(script.text(), HasSubstr("not heard: MIXLOOP_REFERENCE"));
+}
+
+TEST(WatchText, HasADashForWhatWasNeverMeasured) {
+  Script script;
+  script.state(0, {0, 0, 0});
+  script.reference(0, {1, 0, 0}, reference_t::PHASE_MOVE_TO_START);
+  script.send(Channel::timing, script.message<timing_t>(0));
+  EXPECT_THAT(script.text(), HasSubstr("\n1       1.000000          -         -         -"));
+  EXPECT_THAT(script.text(), HasSubstr("plant: round trip                -         -         -"));
 }
 
 TEST(WatchText, DrawsTorquesAgainstTheirLargest) {
@@ -360,8 +378,10 @@ TEST(WatchJson, GivesNullForWhatIsNotKnownAndSiUnits) {
   Script script;
   script.state(0, {0, 0, 0});
   auto json = watch_json(script.watch.view(script.at));
-  for (const char* key : {"position_error", "max_position_error", "torque_limit", "applied_torque", "timing"})
+  for (const char* key : {"position_error", "max_position_error", "torque_limit", "applied_torque", "timing",
+                          "torque", "max_torque", "motor_error", "max_motor_error", "torque_unit"})
     EXPECT_TRUE(json.at(key).is_null()) << key;
+  EXPECT_TRUE(json["command_after_state"]["p50"].is_null());
   EXPECT_FALSE(json.contains("error")) << "that is for errors";
   json = watch_json(busy(3));
   EXPECT_DOUBLE_EQ(json["timing"]["round_trip_max"], 0.053107);
