@@ -61,7 +61,7 @@ TEST(Refusal, OfAWayThatTheMotorsDontKnowToWhatCanBeReachedIsOfASingularity) {
   Follower follower(ik, itinerary, 0);
   ASSERT_EQ(follower.start([](const Vector&) { return true; }), IkOutcome::solved);
   measures.adopt_scale(follower.now().motors.psi, 0);
-  const auto error = input_error([&] { refusal.no_way(IkOutcome::out_of_reach, follower, 5); });
+  const auto error = input_error([&] { refusal.no_way(follower, 5); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code, "singular_path");
   EXPECT_NE(error->message.find("singularity 'stretched'"), std::string::npos) << error->message;
