@@ -14,6 +14,7 @@
 #include "report/kept_files.hpp"
 #include "report/mechanism.hpp"
 #include "report/trajectory_reader.hpp"
+#include "runtime/bus/rejects.hpp"
 
 namespace mixloop {
 namespace {
@@ -217,6 +218,9 @@ LogFacts read_log_alone(RunFile& run, Mechanism* mechanism, const std::function<
     on_tick(tick);
   });
   add_notes(facts, run.notes);
+  if (const std::string dropped = facts.timing.empty() ? "" : dropped_in(facts.timing.back());
+      !dropped.empty())
+    run.notes.push_back("By its TIMING the plant dropped messages: " + dropped + ".");
   if (!facts.has_truth && run.scene)
     run.notes.push_back(
         "The log has no TRUTH: the end effector's motion and the energies are worked out from the measured "
