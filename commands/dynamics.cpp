@@ -7,6 +7,7 @@
 #include "commands/commands.hpp"
 #include "dynamics/procedure/procedure.hpp"
 #include "dynamics/procedure/singular_mass.hpp"
+#include "dynamics/scene/coordinate_values.hpp"
 #include "loop/experiment.hpp"
 #include "notation/value.hpp"
 #include "processes/command_line.hpp"
@@ -20,10 +21,11 @@ struct DynamicsLine : CommonOptions {
   std::string t = "0";
 };
 
-/// `1,2,3` or `57 deg, 0, 10 cm`; all zero when nothing was said.
-std::vector<double> values_of(const std::string& text, const std::string& option, std::size_t size) {
-  if (text.empty()) return std::vector<double>(size, 0.0);
-  return numbers_of(parse_document("[" + text + "]", option), kOpen, size, option);
+/// `1,2,3` or `57 deg, 0, 10 cm`, one for each coordinate and in its unit; all zero when nothing was said.
+std::vector<double> values_of(const std::string& text, const char* option,
+                              std::span<const Scene::Independent> coordinates, const Quantity& quantity) {
+  if (text.empty()) return std::vector<double>(coordinates.size(), 0.0);
+  return read_values(parse_document("[" + text + "]", option), coordinates, quantity, option);
 }
 
 template <class Derived>
@@ -47,9 +49,10 @@ nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<cons
   const auto model = make_model<double>(scene, std::span<const double>(parameters));
   Workspace<double> ws(model);
   using In = std::span<const double>;
-  const std::size_t n = scene->independent.size(), n_u = scene->motors().size();
-  const auto psi = values_of(options.psi, "--psi", n), psid = values_of(options.psid, "--psid", n),
-             tau = values_of(options.tau, "--tau", n_u);
+  const std::span all(scene->independent);
+  const auto psi = values_of(options.psi, "--psi", all, kPosition),
+             psid = values_of(options.psid, "--psid", all, kVelocity),
+             tau = values_of(options.tau, "--tau", scene->motors(), kTorque);
   const double t = number_of(*parse_document(options.t, "--t"), kTime, "--t");
 
   require_inertia(scene, parameters);
@@ -106,7 +109,8 @@ void add_dynamics_command(CLI::App& app, int& status) {
       app.add_subcommand("dynamics", "one evaluation of a scene's equations of motion, M psi'' + h = tau");
   command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
   command
-      ->add_option("--psi", options->psi, "motor positions, e.g. 1,2,3 or '57 deg, 0, 0'; zero when omitted")
+      ->add_option("--psi", options->psi,
+                   "motor positions, rad or m, e.g. 1,2,3 or '57 deg, 0, 10 cm'; zero when omitted")
       ->type_name("A,B,...");
   command->add_option("--psid", options->psid, "motor velocities, rad/s or m/s")->type_name("A,B,...");
   command->add_option("--tau", options->tau, "motor torques or forces, N m or N")->type_name("A,B,...");

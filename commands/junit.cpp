@@ -18,7 +18,7 @@ void write_junit(const std::string& file, std::span<const Result> results) {
     auto* test = suite->InsertNewChildElement("testcase");
     test->SetAttribute("classname", "mixloop.track");
     test->SetAttribute("name", result.experiment.c_str());
-    test->SetAttribute("time", result.run ? result.run->wall_time : 0.0);
+    if (result.run) test->SetAttribute("time", result.run->wall_time);
     if (result.error && result.judged.verdict == Verdict::interrupted) {
       ++skipped;
       test->InsertNewChildElement("skipped")->SetAttribute("message", result.error->message.c_str());
@@ -30,8 +30,7 @@ void write_junit(const std::string& file, std::span<const Result> results) {
     } else if (result.judged.verdict != Verdict::held) {
       ++failures;
       auto* element = test->InsertNewChildElement("failure");
-      std::string message;
-      if (result.judged.verdict == Verdict::interrupted) message = "interrupted";
+      std::string message(result.judged.missed.empty() ? name_of(result.judged.verdict) : "");
       for (const auto& line : result.judged.missed) message += (message.empty() ? "" : "; ") + line;
       element->SetAttribute("message", message.c_str());
     }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include "commands/attached.hpp"
 #include "commands/commands.hpp"
@@ -88,8 +89,9 @@ void print_line(const Result& result) {
     return;
   }
   const Measures& measures = result.run->measures;
-  std::string text = measures.diverged_at
-                         ? fmt::format("diverged at {:.6g} s", *measures.diverged_at)
+  std::string text = measures.diverged_at ? fmt::format("diverged at {:.6g} s", *measures.diverged_at)
+                     : std::isnan(measures.max_position_error)
+                         ? "its position error was never measured"
                          : fmt::format("max {:.7f} mm, final {:.7f} mm", measures.max_position_error * 1e3,
                                        measures.final_position_error * 1e3);
   for (const auto& line : result.judged.missed) text += "; " + line;

@@ -18,6 +18,7 @@ class Controller {
   void torque(const Measurement& now, const Reference& desired, std::span<double> tau);
 
   const Equations& equations() const { return dynamics_.equations(); }
+  const Scene& scene() const { return dynamics_.scene(); }
 
  private:
   Equations::Workspace dynamics_;

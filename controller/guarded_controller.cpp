@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/scene/coordinate_values.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -31,9 +33,10 @@ std::string GuardedController::start_refusal(std::span<const double> psi, const 
         settings_.start_tolerance.empty() ? kStartTolerance : settings_.start_tolerance[i];
     const double should = start.psi[static_cast<Eigen::Index>(i)];
     if (std::abs(psi[i] - should) <= tolerance) continue;
-    return "motor " + std::to_string(i + 1) + " stands at " + std::to_string(psi[i]) +
-           ", the path starts at " + std::to_string(should) +
-           ", farther than controller.safety.start_tolerance (" + std::to_string(tolerance) +
+    const std::string unit = std::string(" ") + position_unit(controller_.scene().motors()[i].linear);
+    return "motor " + std::to_string(i + 1) + " stands at " + std::to_string(psi[i]) + unit +
+           ", the path starts at " + std::to_string(should) + unit +
+           ", farther than controller.safety.start_tolerance (" + std::to_string(tolerance) + unit +
            "): say where it stands by plant.initial, and path.approach to move there";
   }
   return "";

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <cmath>
 
 #include "dynamics/scene/coordinate_values.hpp"
 #include "notation/value.hpp"
@@ -19,16 +19,63 @@ constexpr NamedMeasure kErrors[] = {{"max_position_error", &Measures::max_positi
                                     {"final_position_error", &Measures::final_position_error},
                                     {"rms_position_error", &Measures::rms_position_error}};
 
+[[noreturn]] void refuse(const Place& place, const std::string& why) {
+  throw InputError("out_of_range", place, why);
+}
+
+/// What is measured is a size: bounds on it are 0 or more, and leave room between them.
+void check_bound(const Expectation::Bound& bound, const Node& node) {
+  if (!(bound.least >= 0 && bound.most >= 0))
+    refuse(
+        node.place,
+        fmt::format("the bound {} on {} is negative, and that is a size, never below 0; expected 0 or more",
+                    describe(node), bound.name));
+  if (!(bound.least <= bound.most))
+    refuse(node.place,
+           fmt::format("nothing lies between the bounds {:g} and {:g} on {}; expected [least, most]",
+                       bound.least, bound.most, bound.name));
+}
+
+/// Neither the last error nor the mean one is above the largest, and none of a run that has not diverged
+/// above the limit.
+void check_possible(const Expectation& expectation, const Mapping& entry, double position_error_limit) {
+  double most = position_error_limit;
+  std::string limit = "limits.position_error";
+  for (const auto& bound : expectation.bounds)
+    if (bound.name == "max_position_error" && bound.most < most)
+      most = bound.most, limit = "expect.max_position_error";
+  for (const auto& bound : expectation.bounds)
+    if (!bound.motor && bound.least > most)
+      refuse(entry.at(bound.name)->place,
+             fmt::format("{} is expected to be {:g} m or more, and {} lets it be {:g} m at most; expected "
+                         "bounds that a run can meet",
+                         bound.name, bound.least, limit, most));
+}
+
+/// Bounds are not judged where it diverges.
+void check_divergence(const Expectation& expectation, const Mapping& entry) {
+  if (!expectation.diverges) return;
+  if (expectation.safe_state)
+    refuse(entry.at("safe_state")->place,
+           "a run ends where it diverges, and is not judged in its safe state; expected either 'diverges' or "
+           "'safe_state'");
+  if (!expectation.bounds.empty())
+    refuse(
+        entry.at(expectation.bounds.front().name)->place,
+        fmt::format("beside 'diverges: true' no bound on {} is judged; expected either 'diverges' or bounds",
+                    expectation.bounds.front().name));
+}
+
 }  // namespace
 
 double Expectation::Bound::value_in(const Measures& measures) const {
   if (motor) return measures.max_torque[*motor];
   for (const auto& known : kErrors)
     if (name == known.name) return measures.*known.value;
-  return std::numeric_limits<double>::quiet_NaN();
+  return kNeverMeasured;
 }
 
-Expectation read_expectation(const NodePtr& node, const Scene& scene) {
+Expectation read_expectation(const NodePtr& node, const Scene& scene, double position_error_limit) {
   const Mapping entry(node, "what is expected",
                       {"max_position_error", "final_position_error", "rms_position_error", "max_torque",
                        "diverges", "safe_state"});
@@ -42,19 +89,26 @@ Expectation read_expectation(const NodePtr& node, const Scene& scene) {
           "wrong_size", bound->place,
           fmt::format("{} values for {}; expected a bound or [least, most]", values.size(), known.name));
     expectation.bounds.push_back(
-        {known.name, std::nullopt, values.size() == 2 ? values[0] : 0.0, values.back()});
+        {known.name, std::nullopt, values.size() == 2 ? values[0] : 0.0, values.back(), "m"});
+    check_bound(expectation.bounds.back(), *bound);
   }
   if (const NodePtr torque = entry.find("max_torque")) {
     const auto items = items_of(torque, "max_torque");
     if (items.size() != scene.motors().size())
       throw InputError("wrong_size", torque->place,
                        fmt::format("max_torque has {} values; expected {}", items.size(), scene.n_u()));
-    for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const auto& motor = scene.motors()[i];
       expectation.bounds.push_back({"max_torque", static_cast<int>(i), 0.0,
-                                    number_of(*items[i], kTorque.of(scene.motors()[i]), "max_torque")});
+                                    number_of(*items[i], kTorque.of(motor), "max_torque"),
+                                    torque_unit(motor.linear)});
+      check_bound(expectation.bounds.back(), *items[i]);
+    }
   }
   if (const NodePtr diverges = entry.find("diverges")) expectation.diverges = flag_of(*diverges, "diverges");
   if (const NodePtr safe = entry.find("safe_state")) expectation.safe_state = flag_of(*safe, "safe_state");
+  check_divergence(expectation, entry);
+  check_possible(expectation, entry, position_error_limit);
   return expectation;
 }
 
@@ -70,16 +124,17 @@ std::vector<std::string> missed(const Expectation& expectation, const Measures& 
   if (measures.diverged_at) return lines;
   for (const auto& bound : expectation.bounds) {
     const double value = bound.value_in(measures);
-    if (value >= bound.least && value <= bound.most) continue;
+    if (bound.holds(value)) continue;
     const bool torque = bound.motor.has_value();
     const double scale = torque ? 1 : 1e3;
-    const char* unit = torque ? "N m" : "mm";
+    const std::string unit = torque ? bound.unit : "mm";
     const std::string name = torque ? fmt::format("{}[{}]", bound.name, *bound.motor) : bound.name;
-    lines.push_back(bound.least > 0
-                        ? fmt::format("{} is {:.6g} {}; expected {:.6g} to {:.6g} {}", name, value * scale,
-                                      unit, bound.least * scale, bound.most * scale, unit)
-                        : fmt::format("{} is {:.6g} {}; expected at most {:.6g} {}", name, value * scale,
-                                      unit, bound.most * scale, unit));
+    const std::string found =
+        std::isnan(value) ? "was never measured" : fmt::format("is {:.6g} {}", value * scale, unit);
+    const std::string expected =
+        bound.least > 0 ? fmt::format("{:.6g} to {:.6g} {}", bound.least * scale, bound.most * scale, unit)
+                        : fmt::format("at most {:.6g} {}", bound.most * scale, unit);
+    lines.push_back(fmt::format("{} {}; expected {}", name, found, expected));
   }
   return lines;
 }

@@ -17,7 +17,10 @@ struct Expectation {
     std::string name;          ///< of the measure, e.g. "max_position_error"
     std::optional<int> motor;  ///< which element of a measure that has one a motor
     double least = 0, most = 0;
+    std::string unit;  ///< of the two and of what is measured, in SI
     double value_in(const Measures& measures) const;
+    /// Not of what was never measured.
+    bool holds(double value) const { return value >= least && value <= most; }
   };
   std::vector<Bound> bounds;
   bool diverges = false;
@@ -25,8 +28,9 @@ struct Expectation {
 };
 
 /// Reads `{max_position_error: 13.3 mm, max_torque: [2, 5, 3], diverges: true}`; a bound may be a pair
-/// [least, most] where a measure is a single number.
-Expectation read_expectation(const NodePtr& node, const Scene& scene);
+/// [least, most] where a measure is a single number. Throws InputError, also for what no run can show whose
+/// position error stays below `position_error_limit` (m) until it has diverged.
+Expectation read_expectation(const NodePtr& node, const Scene& scene, double position_error_limit);
 
 /// What was missed, a line each; empty where all is held.
 std::vector<std::string> missed(const Expectation& expectation, const Measures& measures);

@@ -50,11 +50,41 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
   if (!(experiment.position_error_limit > 0))
     throw InputError("out_of_range", entry.at("position_error")->place,
                      "a position error limit that is not positive");
-  if (const NodePtr limit = entry.find("velocity"))
-    experiment.limits.velocity =
-        read_values(limit, experiment.scene->motors(), kVelocity, "the velocity limit");
-  if (const NodePtr limit = entry.find("torque"))
-    experiment.limits.torque = read_values(limit, experiment.scene->motors(), kTorque, "the torque limit");
+  const auto positive = [&](const char* key, const Quantity& quantity, const char* what) {
+    const NodePtr limit = entry.find(key);
+    if (!limit) return std::vector<double>();
+    auto values = read_values(limit, experiment.scene->motors(), quantity, what);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!(values[i] > 0))
+        throw InputError("out_of_range", items_of(limit, what)[i]->place,
+                         fmt::format("{} is {:g}; expected more than 0", what, values[i]));
+    return values;
+  };
+  experiment.limits.velocity = positive("velocity", kVelocity, "the velocity limit");
+  experiment.limits.torque = positive("torque", kTorque, "the torque limit");
+}
+
+Expectation read_expectation_of(const Experiment& experiment, const NodePtr& node) {
+  Expectation expect = read_expectation(node, *experiment.scene, experiment.position_error_limit);
+  if (expect.safe_state && experiment.plant.continuous)
+    throw InputError(
+        "out_of_range", find_entry(*node, "safe_state")->place,
+        "a safe state is real time's, which control: continuous has not; expected control: held");
+  return expect;
+}
+
+/// Of each fault that is to come about: not after the last tick.
+void require_faults_in_time(const Experiment& experiment, std::int64_t last_tick) {
+  const NodePtr faults = experiment.document ? find_entry(*experiment.document, "faults") : nullptr;
+  const auto& scheduled = experiment.plant.faults.scheduled;
+  for (std::size_t i = 0; faults && i < std::min(scheduled.size(), faults->items.size()); ++i) {
+    if (first_tick_at(scheduled[i].at, experiment.rate_hz) <= last_tick) continue;
+    throw InputError(
+        "out_of_range", find_entry(*faults->items[i], "at")->place,
+        fmt::format(
+            "a fault at {:g} s, after the run's end at {:g} s; expected an earlier one, or a longer path",
+            scheduled[i].at, static_cast<double>(last_tick) / experiment.rate_hz));
+  }
 }
 
 std::string described(std::span<const Scene::Independent> coordinates) {
@@ -153,7 +183,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   require_inertia(experiment.scene, experiment.plant_parameters);
   read_faults_and_seed(root, experiment);
   if (const NodePtr limits = root.find("limits")) read_limits(limits, experiment);
-  if (const NodePtr expect = root.find("expect")) experiment.expect = read_expectation(expect, scene);
+  if (const NodePtr expect = root.find("expect")) experiment.expect = read_expectation_of(experiment, expect);
   return experiment;
 }
 
@@ -171,7 +201,9 @@ Plan make_plan(const Experiment& experiment) {
     settings.stages_per_tick = experiment.plant.substeps * (rows.uniform ? rows.rows : 1);
     if (!rows.uniform) settings.within = rows.at;
   }
-  return Plan(model, experiment.path, settings);
+  Plan plan(model, experiment.path, settings);
+  require_faults_in_time(experiment, plan.ticks());
+  return plan;
 }
 
 Controller make_controller(const Experiment& experiment) {

@@ -55,7 +55,8 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
 /// A scene file with overrides of its entries; `parameters.NAME` sets a default.
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
-/// The parts of the loop. make_plan checks the whole path first and throws InputError where it can't be run.
+/// The parts of the loop. make_plan checks the whole path first and throws InputError where it can't be run,
+/// or where a fault comes after its end.
 Plan make_plan(const Experiment& experiment);
 Controller make_controller(const Experiment& experiment);
 GuardedController make_guarded_controller(const Experiment& experiment);

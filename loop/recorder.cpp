@@ -28,7 +28,7 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
       conditions_{-1, 1},
       zero_(n_, 0.0),
       hand_(kinematics_.outputs(Purpose::end_effector)) {
-  measures_.max_torque = Vector::Zero(experiment.scene->n_u());
+  measures_.max_torque = Vector::Constant(experiment.scene->n_u(), kNeverMeasured);
   const auto& parameters = experiment.plant_parameters;
   conditions_.insert(conditions_.end(), parameters.begin(), parameters.end());
   row_of_conditions_ = conditions_.size();
@@ -61,7 +61,7 @@ bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<cons
   kinematics_.evaluate(Purpose::end_effector, {psi, psid, zero_, time(k)}, hand_);
   error_ =
       mixloop::position_error(Eigen::Map<const Eigen::Vector3d>(hand_.data()), plan_.at(k).position, axes_);
-  if (!measures_.safe_at && !(error_ <= limit_)) return diverged(k);
+  if (judged(k) && !(error_ <= limit_)) return diverged(k);
 
   double* to = row(k);
   std::copy(psi.begin(), psi.end(), to);
@@ -77,16 +77,24 @@ bool Recorder::command(std::int64_t k, std::span<const double> tau, std::span<co
   std::copy(applied.begin(), applied.end(), to + 2 * n_ + n_u_);
   if (k > plan_.ticks()) return true;
   recorded_ = k + 1;
-  measures_.max_torque = measures_.max_torque.cwiseMax(map_of(tau).cwiseAbs());
-  if (k < plan_.start_tick() || measures_.safe_at) return true;
-  if (error_ > measures_.max_position_error) {
+  if (judged(k)) measure(k, tau);
+  return true;
+}
+
+/// `!(a <= b)` holds also where b was never measured.
+void Recorder::measure(std::int64_t k, std::span<const double> tau) {
+  for (std::size_t i = 0; i < tau.size(); ++i) {
+    double& most = measures_.max_torque[static_cast<Eigen::Index>(i)];
+    if (!(std::abs(tau[i]) <= most)) most = std::abs(tau[i]);
+  }
+  if (k < plan_.start_tick()) return;
+  if (!(error_ <= measures_.max_position_error)) {
     measures_.max_position_error = error_;
     measures_.time_of_max_position_error = time(k);
   }
   measures_.final_position_error = error_;
   sum_of_squares_ += error_ * error_;
   ++errors_;
-  return true;
 }
 
 bool Recorder::diverged(std::int64_t k) {
@@ -96,7 +104,10 @@ bool Recorder::diverged(std::int64_t k) {
 
 void Recorder::interrupted() { measures_.interrupted_at = time(std::max<std::int64_t>(recorded_ - 1, 0)); }
 
-void Recorder::made_safe(std::int64_t k) { measures_.safe_at = time(k); }
+void Recorder::made_safe(std::int64_t k) {
+  safe_from_ = k;
+  measures_.safe_at = time(k);
+}
 
 Measures Recorder::measures() const {
   Measures result = measures_;
@@ -108,7 +119,7 @@ Measures Recorder::measures() const {
     hash.add(std::span<const double>(&t, 1));
     for (const auto& values : {psi(k), psid(k), commanded(k)}) hash.add(values);
   }
-  result.trajectory_sha256 = hash.hex();
+  if (recorded_ > 0) result.trajectory_sha256 = hash.hex();
   return result;
 }
 

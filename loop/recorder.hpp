@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,8 @@ class Recorder {
   }
   double* row(std::int64_t k) { return const_cast<double*>(std::as_const(*this).row(k)); }
   std::size_t width() const { return 2 * n_ + 2 * n_u_ + 1; }
+  bool judged(std::int64_t k) const { return k < safe_from_; }
+  void measure(std::int64_t k, std::span<const double> tau);
   bool diverged(std::int64_t k);
 
   const Plan& plan_;
@@ -70,6 +73,7 @@ class Recorder {
   std::vector<double> conditions_;  ///< rows of tick, friction, parameters: as it began, then each change
   std::vector<double> zero_, hand_;
   std::int64_t recorded_ = 0;
+  std::int64_t safe_from_ = std::numeric_limits<std::int64_t>::max();
   double error_ = 0, sum_of_squares_ = 0;
   std::int64_t errors_ = 0;
   Measures measures_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "loop/result.hpp"
 
+#include "dynamics/scene/coordinate_values.hpp"
 #include "notation/sha256.hpp"
 
 namespace mixloop {
@@ -10,7 +11,7 @@ std::vector<RunFigures::Bound> bounds_of(const Expectation& expect, const Measur
   std::vector<RunFigures::Bound> bounds;
   for (const auto& bound : expect.bounds) {
     const double value = bound.value_in(measures);
-    bounds.push_back({bound, value, value >= bound.least && value <= bound.most});
+    bounds.push_back({bound, value, bound.holds(value)});
   }
   return bounds;
 }
@@ -61,6 +62,8 @@ Result result_of(const Experiment& experiment, const Measures& measures, const s
                  .integrator = integrator_of(experiment),
                  .origin = origin_here()};
   if (experiment.plant.random()) run.seed = experiment.plant.seed;
+  for (const auto& motor : experiment.scene->motors())
+    run.torque_units.emplace_back(torque_unit(motor.linear));
   for (std::size_t i = 0; i < experiment.scene->parameters.size(); ++i)
     run.parameters[experiment.scene->parameters[i].name] = experiment.plant_parameters[i];
   return {.experiment = experiment.name, .judged = judge(experiment, measures), .run = std::move(run)};

@@ -49,6 +49,7 @@ struct RunFigures {
   };
 
   Measures measures;
+  std::vector<std::string> torque_units;  ///< n_u: N m, of a linear motor N
   std::vector<Bound> bounds;
   bool expects_divergence = false;
   double wall_time = 0;    ///< s
@@ -65,11 +66,11 @@ struct RunFigures {
 /// What the bus added to a run, times in s.
 struct BusFigures {
   struct Quantiles {
-    double p50 = 0, p99 = 0, p999 = 0, max = 0;
+    double p50 = kNeverMeasured, p99 = kNeverMeasured, p999 = kNeverMeasured, max = kNeverMeasured;
   };
   struct Deadlines {
     std::int64_t longest_miss = 0;
-    double success_last_100 = 1;
+    double success_last_100 = kNeverMeasured;
     std::uint64_t overruns = 0;
     std::optional<std::string> safe_cause, safe_state;
   };

@@ -27,6 +27,13 @@ bool FaultSettings::change_friction() const {
                                  [](const Fault& fault) { return fault.target == Target::friction; });
 }
 
+std::int64_t first_tick_at(double time, double rate_hz) {
+  const double ticks = time * rate_hz;
+  return ticks < static_cast<double>(kLatest)
+             ? static_cast<std::int64_t>(std::ceil(ticks - 1e-9 * std::max(1.0, ticks)))
+             : kLatest;
+}
+
 FaultFilter::FaultFilter(Chance chance, std::size_t channel, Draw draw, double rate_hz)
     : chance_(chance),
       channel_(channel),
@@ -106,14 +113,6 @@ Faults::State Faults::state() const {
   state.waiting.reserve(scheduled_.size() + kWaiting);
   for (const Fault& fault : scheduled_) queue(state, fault, 0);
   return state;
-}
-
-/// The first tick at or after a time.
-std::int64_t Faults::tick_at(double time) const {
-  const double ticks = time * rate_hz_;
-  return ticks < static_cast<double>(kLatest)
-             ? static_cast<std::int64_t>(std::ceil(ticks - 1e-9 * std::max(1.0, ticks)))
-             : kLatest;
 }
 
 void Faults::queue(State& state, const Fault& fault, std::int64_t earliest) const {

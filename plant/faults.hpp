@@ -70,6 +70,9 @@ void require_possible(const Fault& fault, const FaultGround& ground);
 std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool friction, double rate_hz,
                                const std::vector<double>& values);
 
+/// The first tick at or after a time, s.
+std::int64_t first_tick_at(double time, double rate_hz);
+
 /// One scalar's way through a fault, tick by tick. Within a tick it may be asked again, with another value:
 /// the last one counts.
 class FaultFilter {
@@ -142,7 +145,7 @@ class Faults {
   /// True where parameters or friction change.
   bool start(State& state, const Fault& fault, std::int64_t until) const;
   bool any_active(const State& state) const;
-  std::int64_t tick_at(double time) const;
+  std::int64_t tick_at(double time) const { return first_tick_at(time, rate_hz_); }
 
   std::vector<Fault> scheduled_;
   Chance chance_;

@@ -54,6 +54,11 @@ class Reader {
       fault.duration = number_of(*length, kTime, "how long a fault lasts");
       if (!(fault.duration > 0))
         throw InputError("out_of_range", length->place, "a fault that doesn't last; without 'for' it stays");
+      if (first_tick_at(fault.at + fault.duration, rate_hz_) <= first_tick_at(fault.at, rate_hz_))
+        throw InputError(
+            "out_of_range", length->place,
+            fmt::format("no tick lies within the {:g} s from {:g} s on; expected a tick ({:g} s) or longer",
+                        fault.duration, fault.at, 1 / rate_hz_));
     }
     try {
       require_possible(fault, ground_);
@@ -104,9 +109,14 @@ class Reader {
                              : what == Magnitude::share ? kNumber
                              : motor                    ? kTorque
                                                         : kPosition;
-    fault.magnitude = number_of(*entry.at("magnitude"),
-                                wanted.of(coordinates[static_cast<std::size_t>(std::max(fault.index, 0))]),
-                                "the magnitude of a fault");
+    // Of all of them a number with a unit must be each one's.
+    const auto whose =
+        fault.index < 0 ? coordinates : coordinates.subspan(static_cast<std::size_t>(fault.index), 1);
+    for (const auto& one : whose)
+      fault.magnitude = number_of(
+          *entry.at("magnitude"), wanted.of(one),
+          fmt::format("the magnitude of a fault of the {} {} '{}'", one.linear ? "linear" : "rotary",
+                      one.driven ? "motor" : "coordinate", one.name));
   }
 
   void read_change(const Mapping& entry, const NodePtr& parameter, const NodePtr& friction,

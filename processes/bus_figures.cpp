@@ -7,6 +7,7 @@ namespace {
 double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 BusFigures::Quantiles quantiles(const Histogram& histogram) {
+  if (histogram.count() == 0) return {};
   return {.p50 = seconds(histogram.quantile(0.5)),
           .p99 = seconds(histogram.quantile(0.99)),
           .p999 = seconds(histogram.quantile(0.999)),
@@ -32,7 +33,7 @@ void add_deadlines(BusFigures& figures, const PlantReport& report, const Deadlin
   figures.missed_deadlines = plant.missed();
   auto& deadlines = figures.deadlines.emplace();
   deadlines.longest_miss = plant.longest_miss();
-  deadlines.success_last_100 = plant.success_last_100();
+  if (plant.state().counted > 0) deadlines.success_last_100 = plant.success_last_100();
   deadlines.overruns = report.overruns;
   if (!plant.safe()) return;
   deadlines.safe_cause = plant.safe()->cause;

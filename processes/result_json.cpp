@@ -121,6 +121,7 @@ void fields(const Way& f, B& bound) {
   f("value", bound.value);
   f("held", bound.held);
   f("motor", bound.expected.motor);
+  f("unit", bound.expected.unit);
 }
 
 template <class Way, IsA<RunFigures::Integrator::Chosen> C>
@@ -141,6 +142,7 @@ void fields(const Way& f, I& integrator) {
 template <class Way, IsA<RunFigures> R>
 void fields(const Way& f, R& run) {
   fields(f, run.measures);
+  f("torque_units", run.torque_units);
   f("bounds", run.bounds);
   f("expects_divergence", run.expects_divergence);
   f("wall_time", run.wall_time);

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace mixloop {
 namespace {
 
@@ -24,6 +27,49 @@ std::string endings(const Experiment& experiment, const Result& result) {
   return text;
 }
 
+std::string position_error(const Measures& measures) {
+  if (std::isnan(measures.max_position_error)) return "never measured: no tick of the path was judged";
+  return fmt::format("max {:.7f} mm at {:.6g} s, final {:.7f} mm, rms {:.7f} mm",
+                     measures.max_position_error * 1e3, measures.time_of_max_position_error,
+                     measures.final_position_error * 1e3, measures.rms_position_error * 1e3);
+}
+
+bool all_linear(const RunFigures& run) {
+  return !run.torque_units.empty() &&
+         std::ranges::all_of(run.torque_units, [](const auto& unit) { return unit == "N"; });
+}
+
+/// The unit once where all motors have the same.
+std::string max_torque(const RunFigures& run) {
+  const Vector& torque = run.measures.max_torque;
+  if (torque.hasNaN()) return "never measured: no command was judged";
+  std::string text;
+  for (std::size_t i = 0; i < run.torque_units.size(); ++i) {
+    const bool last_of_unit =
+        i + 1 == run.torque_units.size() || run.torque_units[i + 1] != run.torque_units[i];
+    text += fmt::format("{}{:.5f}{}", i > 0 ? " " : "", torque[static_cast<Eigen::Index>(i)],
+                        last_of_unit ? " " + run.torque_units[i] : "");
+  }
+  return text;
+}
+
+std::string times(const BusFigures::Quantiles& of) {
+  if (std::isnan(of.max)) return "never measured";
+  return fmt::format("p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us", of.p50 * 1e6, of.p99 * 1e6, of.max * 1e6);
+}
+
+std::string deadlines(const BusFigures& bus) {
+  const auto& deadlines = *bus.deadlines;
+  const double in_time = deadlines.success_last_100;
+  return fmt::format(
+      "  commands         {} missed ({} in a row at most), {}\n"
+      "  wake-up          {}; plant time slipped {} times, by {:.6f} s\n",
+      bus.missed_deadlines, deadlines.longest_miss,
+      std::isnan(in_time) ? "no tick was counted"
+                          : fmt::format("{:.0f} % of the last 100 in time", in_time * 100),
+      times(bus.wake_up.value_or(BusFigures::Quantiles{})), deadlines.overruns, bus.slipped);
+}
+
 }  // namespace
 
 std::string summary(const Experiment& experiment, const Result& result) {
@@ -32,16 +78,12 @@ std::string summary(const Experiment& experiment, const Result& result) {
   const RunFigures& run = *result.run;
   const Measures& measures = run.measures;
   text += endings(experiment, result);
-  text += fmt::format("  position error   max {:.7f} mm at {:.6g} s, final {:.7f} mm, rms {:.7f} mm\n",
-                      measures.max_position_error * 1e3, measures.time_of_max_position_error,
-                      measures.final_position_error * 1e3, measures.rms_position_error * 1e3);
-  text += "  max torque      ";
-  for (const double value : measures.max_torque) text += fmt::format(" {:.5f}", value);
-  text += " N m\n";
+  text += "  position error   " + position_error(measures) + "\n";
+  text += fmt::format("  max {:<13}", all_linear(run) ? "force" : "torque") + max_torque(run) + "\n";
   text += fmt::format("  {} ticks at {:g} Hz by {} in {:.3f} s ({})\n", measures.ticks, experiment.rate_hz,
                       run.route, run.wall_time, run.evaluation);
   if (run.integrator.chosen) text += "  integrator       " + run.integrator.chosen->why + "\n";
-  text += "  trajectory       " + measures.trajectory_sha256 + "\n";
+  if (!measures.trajectory_sha256.empty()) text += "  trajectory       " + measures.trajectory_sha256 + "\n";
   for (const auto& line : result.judged.missed) text += "  missed: " + line + "\n";
   return text;
 }
@@ -49,20 +91,8 @@ std::string summary(const Experiment& experiment, const Result& result) {
 std::string bus_summary(const Result& result) {
   if (!result.bus) return {};
   const BusFigures& bus = *result.bus;
-  std::string text;
-  if (const auto& deadlines = bus.deadlines) {
-    const auto wake_up = bus.wake_up.value_or(BusFigures::Quantiles{});
-    text += fmt::format(
-        "  commands         {} missed ({} in a row at most), {:.0f} % of the last 100 in time\n"
-        "  wake-up          p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; plant time slipped {} times, by "
-        "{:.6f} s\n",
-        bus.missed_deadlines, deadlines->longest_miss, deadlines->success_last_100 * 100, wake_up.p50 * 1e6,
-        wake_up.p99 * 1e6, wake_up.max * 1e6, deadlines->overruns, bus.slipped);
-  }
-  return text + fmt::format(
-                    "  round trip       p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; {} states sent "
-                    "again\n",
-                    bus.round_trip.p50 * 1e6, bus.round_trip.p99 * 1e6, bus.round_trip.max * 1e6, bus.resent);
+  return (bus.deadlines ? deadlines(bus) : "") +
+         fmt::format("  round trip       {}; {} states sent again\n", times(bus.round_trip), bus.resent);
 }
 
 }  // namespace mixloop

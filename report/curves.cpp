@@ -46,7 +46,7 @@ void Curves::add(const Tick& tick) {
 void Curves::put_error(const Tick& tick) {
   const Eigen::Vector3d e = tick.actual.position - tick.desired.position;
   const double error = position_error(tick.actual.position, tick.desired.position, axes_);
-  measure(error, tick.t);
+  if (tick.judged) measure(error, tick.t);
   put(error, "error");
   for (int axis = 0; axis < 3; ++axis) put(e[axis], "error_{}", "xyz"[axis]);
 

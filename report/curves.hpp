@@ -9,7 +9,7 @@
 
 namespace mixloop {
 
-/// How far the end effector was from where it should be, over all ticks that tell.
+/// How far the end effector was from where it should be, over all judged ticks that tell.
 struct TrackingError {
   double max = kUnknown, time_of_max = kUnknown, final = kUnknown, rms = kUnknown;  ///< m, s, m, m
 };

@@ -112,6 +112,8 @@ class SessionReader {
     tick.k = heard.k;
     tick.t = static_cast<double>(heard.k) / rate_hz_;
     if (state) take_state(*state, tick);
+    tick.judged = !(state && (state->flags & state_t::FLAG_SAFE_STATE) != 0) &&
+                  !(reference && reference->phase == reference_t::PHASE_MOVE_TO_START);
     if (reference) {
       tick.psi_desired = reference->psi_desired;
       copy_motion(reference->position_desired, reference->velocity_desired, reference->acceleration_desired,

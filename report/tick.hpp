@@ -35,6 +35,7 @@ struct Tick {
 
   std::int64_t k = 0;
   double t = kUnknown;
+  bool judged = true;  ///< neither on the move to the path's start nor in the safe state, as far as is told
   std::vector<double> psi, psid;         ///< n
   std::vector<double> psi_desired;       ///< n_u
   std::vector<double> tau, tau_applied;  ///< n_u, commanded, and after the plant's limits and delay

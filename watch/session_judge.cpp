@@ -55,6 +55,10 @@ void SessionJudge::judge(const HeardTick& tick) {
   const auto* state = tick.get<state_t>();
   const auto* command = tick.get<command_t>();
   if (!state) return;
+  if ((state->flags & state_t::FLAG_SAFE_STATE) != 0 && !safe_) {
+    safe_ = true;
+    recorder_.made_safe(tick.k);
+  }
   diverged_ = !recorder_.state(tick.k, state->psi_measured, state->psid_measured, 0.0);
   if (!command || diverged_) return;
   ++complete_;

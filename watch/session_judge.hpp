@@ -51,7 +51,7 @@ class SessionJudge {
   std::int64_t session_ = 0;
   std::int64_t judged_ = -1, complete_ = 0;
   std::optional<std::int64_t> last_tick_;  ///< of a session that has ended
-  bool diverged_ = false;
+  bool diverged_ = false, safe_ = false;
 };
 
 }  // namespace mixloop

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dynamics/equations.hpp"
+#include "dynamics/scene/coordinate_values.hpp"
 #include "loop/position_error.hpp"
 #include "runtime/protocol/config_hash.hpp"
 
@@ -28,8 +29,9 @@ std::string why_safe(std::int32_t command_flags) {
 }  // namespace
 
 void Extreme::add(double value) {
-  now = value;
+  set(value);
   if (std::abs(value) > std::abs(worst)) worst = value;
+  worst_known = true;
 }
 
 Watch::Watch(const std::string& prefix, std::optional<Experiment> experiment, Instant start)
@@ -99,11 +101,13 @@ void Watch::begin(const state_t& state) {
   const auto& limits =
       experiment_->plant.torque_limit.empty() ? experiment_->limits.torque : experiment_->plant.torque_limit;
   for (std::size_t i = 0; i < std::min(n_u_, limits.size()); ++i) motors_[i].limit = limits[i];
+  for (std::size_t i = 0; i < std::min(n_u_, experiment_->scene->motors().size()); ++i)
+    motors_[i].torque_unit = torque_unit(experiment_->scene->motors()[i].linear);
 }
 
 void Watch::forget_the_worst() {
   position_error_.reset();
-  for (MotorView& motor : motors_) motor.error.worst = motor.torque.worst = 0;
+  for (MotorView& motor : motors_) motor.error.forget_the_worst(), motor.torque.forget_the_worst();
 }
 
 void Watch::on(const state_t& state, Instant at) {
@@ -157,7 +161,7 @@ void Watch::compare_motors(const HeardTick& tick) {
   const bool counts = phase_ != reference_t::PHASE_MOVE_TO_START;
   for (std::size_t i = 0; i < n_u_; ++i) {
     const double error = reference->psi_desired[i] - state->psi_measured[i];
-    motors_[i].error.now = error;
+    motors_[i].error.set(error);
     if (counts) motors_[i].error.add(error);
   }
   if (!kinematics_ || static_cast<std::size_t>(kinematics_->scene().n()) != n_) return;
@@ -180,7 +184,7 @@ void Watch::compare_position(const Eigen::Vector3d& position, const reference_t&
   if (reference.phase == reference_t::PHASE_MOVE_TO_START) return;
   static const std::vector<int> kAll = {0, 1, 2};
   if (!position_error_) position_error_.emplace();
-  const double worst = position_error_->worst;
+  const double worst = position_error_->worst_known ? position_error_->worst : -1;
   position_error_->add(position_error(position, Eigen::Map<const Eigen::Vector3d>(reference.position_desired),
                                       experiment_ ? experiment_->scene->end_effector.axes : kAll));
   if (position_error_->worst > worst) worst_at_ = 1e-6 * static_cast<double>(utime);

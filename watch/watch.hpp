@@ -17,10 +17,14 @@
 
 namespace mixloop {
 
-/// A value now, and the one of the largest magnitude so far.
+/// A value now, and the one of the largest magnitude so far, each once it is known.
 struct Extreme {
   double now = 0, worst = 0;
+  bool now_known = false, worst_known = false;
+
+  void set(double value) { now = value, now_known = true; }
   void add(double value);
+  void forget_the_worst() { worst = 0, worst_known = false; }
 };
 
 struct MotorView {
@@ -28,6 +32,7 @@ struct MotorView {
   Extreme torque;                 ///< commanded, N m or N
   std::optional<double> applied;  ///< by TRUTH
   std::optional<double> limit;    ///< of the experiment
+  std::string torque_unit;        ///< by the experiment; empty without one
 };
 
 /// Time from message to message as the viewer heard them: its own wake-ups are in it.

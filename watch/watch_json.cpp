@@ -11,6 +11,7 @@ namespace {
 double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 nlohmann::json heard_json(const Heard& heard) {
+  if (heard.count == 0) return {{"count", 0}, {"p50", nullptr}, {"p99", nullptr}, {"max", nullptr}};
   return {{"count", heard.count},
           {"p50", seconds(heard.p50)},
           {"p99", seconds(heard.p99)},
@@ -30,6 +31,11 @@ nlohmann::json channels_json(const WatchView& view) {
   return channels;
 }
 
+nlohmann::json now(const Extreme& of) { return of.now_known ? nlohmann::json(of.now) : nlohmann::json(); }
+nlohmann::json worst(const Extreme& of) {
+  return of.worst_known ? nlohmann::json(std::abs(of.worst)) : nlohmann::json();
+}
+
 // A value a motor; null where there are none.
 nlohmann::json by_motor(const WatchView& view, const std::function<nlohmann::json(const MotorView&)>& value) {
   auto all = nlohmann::json::array();
@@ -39,7 +45,7 @@ nlohmann::json by_motor(const WatchView& view, const std::function<nlohmann::jso
   return none ? nlohmann::json() : all;
 }
 
-// The message's own names, times in seconds.
+// The message's own names, times in seconds; null where it says 0 for none.
 nlohmann::json timing_json(const timing_t& timing) {
   nlohmann::json json;
   visit_fields(timing, [&json](const char* name, std::string_view said, const auto& value) {
@@ -48,6 +54,9 @@ nlohmann::json timing_json(const timing_t& timing) {
     else
       json[name] = value;
   });
+  for (const char* times : {"round_trip", "wake_up"})
+    for (const char* which : {"_p50", "_p99", "_max"})
+      if (auto& time = json[std::string(times) + which]; time == 0) time = nullptr;
   for (const char* header : {"n", "utime", "seq", "session", "config"}) json.erase(header);
   return json;
 }
@@ -69,11 +78,16 @@ nlohmann::json watch_json(const WatchView& view) {
           {"max_position_error", position ? nlohmann::json(position->worst) : nlohmann::json()},
           {"time_of_max_position_error", position ? nlohmann::json(view.worst_at) : nlohmann::json()},
           {"position_source", view.position_source},
-          {"motor_error", by_motor(view, [](const MotorView& m) { return m.error.now; })},
-          {"max_motor_error", by_motor(view, [](const MotorView& m) { return std::abs(m.error.worst); })},
-          {"torque", by_motor(view, [](const MotorView& m) { return m.torque.now; })},
-          {"max_torque", by_motor(view, [](const MotorView& m) { return std::abs(m.torque.worst); })},
+          {"motor_error", by_motor(view, [](const MotorView& m) { return now(m.error); })},
+          {"max_motor_error", by_motor(view, [](const MotorView& m) { return worst(m.error); })},
+          {"torque", by_motor(view, [](const MotorView& m) { return now(m.torque); })},
+          {"max_torque", by_motor(view, [](const MotorView& m) { return worst(m.torque); })},
           {"applied_torque", by_motor(view, [](const MotorView& m) { return or_null(m.applied); })},
+          {"torque_unit", by_motor(view,
+                                   [](const MotorView& m) {
+                                     return m.torque_unit.empty() ? nlohmann::json()
+                                                                  : nlohmann::json(m.torque_unit);
+                                   })},
           {"torque_limit", by_motor(view, [](const MotorView& m) { return or_null(m.limit); })},
           {"timing", view.timing ? timing_json(*view.timing) : nlohmann::json()},
           {"state_interval", heard_json(view.state_interval)},

@@ -21,6 +21,13 @@ std::string duration_text(nanoseconds time) {
 }
 std::string duration_text_ns(std::int64_t ns) { return duration_text(nanoseconds(ns)); }
 
+/// Of TIMING, which says 0 for none.
+std::string quantile_text(std::int64_t ns) { return ns == 0 ? "-" : duration_text_ns(ns); }
+
+std::string number_text(bool known, double value, int digits) {
+  return known ? fmt::format("{:.{}f}", value, digits) : "-";
+}
+
 Piece count_piece(std::uint64_t count, int width) {
   return {fmt::format("{:>{}}", count, width), count > 0 ? Style::warning : Style::plain};
 }
@@ -108,23 +115,28 @@ std::string bar(double value, double limit, std::size_t half) {
 }
 
 Line motor_line(std::size_t i, const MotorView& motor, std::size_t half) {
+  const Extreme &error = motor.error, &torque = motor.torque;
   const bool over = motor.limit && std::abs(motor.torque.now) > *motor.limit;
-  return {{fmt::format("{:<5} {:>10.6f} {:>10.6f} {:>9.4f} {:>9.4f} {:>8} ", i + 1, motor.error.now,
-                       motor.error.worst, motor.torque.now, motor.torque.worst,
-                       motor.limit ? fmt::format("{:.4g}", *motor.limit) : "-")},
+  const std::string unit = motor.torque_unit.empty() ? "" : fmt::format("{:<4}", motor.torque_unit);
+  return {{fmt::format(
+              "{:<5} {:>10} {:>10} {:>9} {:>9} {:>8} {}", i + 1, number_text(error.now_known, error.now, 6),
+              number_text(error.worst_known, error.worst, 6), number_text(torque.now_known, torque.now, 4),
+              number_text(torque.worst_known, torque.worst, 4),
+              motor.limit ? fmt::format("{:.4g}", *motor.limit) : "-", unit)},
           {bar(motor.torque.now, motor.limit.value_or(std::abs(motor.torque.worst)), half),
            over ? Style::warning : Style::plain}};
 }
 
 void add_motors(std::vector<Line>& lines, const WatchView& view, std::size_t width, std::size_t room) {
   if (view.motors.empty() || room < 2) return;
-  const std::size_t columns = 57,
+  const bool units = !view.motors.front().torque_unit.empty();
+  const std::size_t columns = units ? 61 : 57,
                     half = std::clamp<std::size_t>((width - std::min(width, columns + 3)) / 2, 5, 40);
   const bool limits = view.motors.front().limit.has_value();
-  lines.push_back(
-      {{fmt::format("{:<5} {:>10} {:>10} {:>9} {:>9} {:>8}  {}", "motor", "error now", "worst", "torque",
-                    "worst", "limit", limits ? "torque to its limit" : "torque to its worst"),
-        Style::heading}});
+  lines.push_back({{fmt::format("{:<5} {:>10} {:>10} {:>9} {:>9} {:>8} {:<{}} {}", "motor", "error now",
+                                "worst", "torque", "worst", "limit", units ? "unit" : "", units ? 4 : 0,
+                                limits ? "torque to its limit" : "torque to its worst"),
+                    Style::heading}});
   const std::size_t n = view.motors.size(), shown = n <= room - 1 ? n : room - 2;
   for (std::size_t i = 0; i < shown; ++i) lines.push_back(motor_line(i, view.motors[i], half));
   if (shown < n)
@@ -146,10 +158,10 @@ std::vector<Line> timing_lines(const WatchView& view) {
   std::vector<Line> lines;
   lines.push_back({{fmt::format("{:<24} {:>9} {:>9} {:>9}", "timing", "p50", "p99", "max"), Style::heading}});
   if (const auto& t = view.timing) {
-    lines.push_back(times("plant: round trip", duration_text_ns(t->round_trip_p50),
-                          duration_text_ns(t->round_trip_p99), duration_text_ns(t->round_trip_max)));
-    lines.push_back(times("plant: wake-up", duration_text_ns(t->wake_up_p50),
-                          duration_text_ns(t->wake_up_p99), duration_text_ns(t->wake_up_max)));
+    lines.push_back(times("plant: round trip", quantile_text(t->round_trip_p50),
+                          quantile_text(t->round_trip_p99), quantile_text(t->round_trip_max)));
+    lines.push_back(times("plant: wake-up", quantile_text(t->wake_up_p50), quantile_text(t->wake_up_p99),
+                          quantile_text(t->wake_up_max)));
     lines.push_back({{fmt::format("missed {} (in a row {}), in time {:.0f} % of the last 100, dropped {}",
                                   t->missed, t->longest_miss, 100 * t->success_last_100, rejected(*t)),
                       t->missed > 0 ? Style::warning : Style::plain}});

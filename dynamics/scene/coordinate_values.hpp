@@ -25,6 +25,10 @@ inline constexpr Quantity kNumber{kPure, kPure}, kSeconds{kTime, kTime};
 inline constexpr Quantity kPosition{kPure, kLength}, kTorque{kMoment, kForce};
 inline constexpr Quantity kVelocity{kFrequency, {2, 0, -2, false}};
 
+/// SI units of what acts on a coordinate, and of where it is.
+constexpr const char* torque_unit(bool linear) { return linear ? "N" : "N m"; }
+constexpr const char* position_unit(bool linear) { return linear ? "m" : "rad"; }
+
 /// What a message calls one of these: a motor, where all of them are driven.
 std::string_view noun_for(std::span<const Scene::Independent> coordinates);
 

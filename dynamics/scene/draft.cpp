@@ -13,12 +13,24 @@ Formula SceneDraft::formula(const Node& node, const Dimension& wanted, const std
   constexpr std::size_t kMostTerms = 100'000;
   Formula result = parse_formula(node, what, scope);
   require_dimension(result, wanted, what);
+  settle_parameter(result, wanted);
   terms += result.nodes.size();
   if (terms > kMostTerms)
     throw InputError(
         "too_large", node.place,
         fmt::format("the scene's formulas have more than {} terms, constants written out", kMostTerms));
   return result;
+}
+
+void SceneDraft::settle_parameter(const Formula& formula, const Dimension& wanted) {
+  const Formula::Node& node = formula.nodes.front();
+  if (wanted.open || formula.nodes.size() != 1 || node.op != Formula::Operator::symbol) return;
+  const int index = node.symbol - Symbols::kParameter0;
+  if (!bare_parameters.contains(index)) return;
+  Dimension& dimension = scene.parameters[static_cast<std::size_t>(index)].dimension;
+  const bool differs = !dimension.open && !dimension.same_powers(wanted);
+  dimension = differs ? kOpen : wanted;
+  if (differs) bare_parameters.erase(index);
 }
 
 std::array<Formula, 3> SceneDraft::vector(const NodePtr& node, const Dimension& wanted,

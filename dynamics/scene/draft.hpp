@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,15 @@ struct SceneDraft {
   Scope moving;  ///< and time, motors and coordinates
   std::map<std::string, int> coordinate_index;
   std::map<std::string, int> frame_index;
-  std::size_t terms = 0;  ///< of all formulas: constants are copied into each formula that names them
+  std::set<int> bare_parameters;  ///< those whose default has no unit
+  std::size_t terms = 0;          ///< of all formulas: constants are copied into each formula that names them
 
   /// The formula at `node`; throws InputError unless it is of dimension `wanted`, or when all formulas
   /// together have too many terms.
   Formula formula(const Node& node, const Dimension& wanted, const std::string& what, const Scope& scope);
+  /// A parameter whose default has no unit is of the dimension that is expected where it stands alone; of
+  /// none where two of those differ.
+  void settle_parameter(const Formula& formula, const Dimension& wanted);
   /// Three of them, or zeros where the node is null.
   std::array<Formula, 3> vector(const NodePtr& node, const Dimension& wanted, const std::string& what,
                                 const Scope& scope);

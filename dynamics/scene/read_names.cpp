@@ -70,6 +70,7 @@ void read_parameters(const Mapping& root, SceneDraft& draft) {
     draft.fixed.define_symbol(entry.key,
                               Symbols::kParameter0 + static_cast<int>(draft.scene.parameters.size()),
                               value.dimension, entry.place);
+    if (value.dimension.open) draft.bare_parameters.insert(static_cast<int>(draft.scene.parameters.size()));
     draft.scene.parameters.push_back({entry.key, value.dimension, value.constant(), entry.place});
   }
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/command.hpp"
+#include "tests/support/mixed_motors.hpp"
 #include "tests/support/paths.hpp"
 
 namespace mixloop {
@@ -31,6 +32,29 @@ TEST(DynamicsCommand, TakesParametersAndZeroForWhatIsOmitted) {
   Command command({bin("mixloop"), "dynamics", robot(), "--set", "parameters.payload=0 kg", "--json"});
   ASSERT_EQ(command.wait(), 0) << command.err();
   EXPECT_DOUBLE_EQ(command.json()["q"][0], 0.0);
+}
+
+TEST(DynamicsCommand, TakesEachMotorsOwnUnitAndNoOther) {
+  const ScratchFolder folder;
+  const std::string scene = folder.write("scene.yaml", kMixedMotorsScene);
+  const auto with = [&](const std::string& option, const std::string& values) {
+    Command command({bin("mixloop"), "dynamics", scene, option, values, "--json"});
+    const int status = command.wait();
+    return status == 0 ? std::string("taken") : command.json()["error"]["code"].get<std::string>();
+  };
+  EXPECT_EQ(with("--psi", "30 cm, 20 deg"), "taken");
+  EXPECT_EQ(with("--psid", "30 cm/s, 1 rpm"), "taken");
+  EXPECT_EQ(with("--tau", "1 N, 2 N m"), "taken");
+  EXPECT_EQ(with("--tau", "1, 2"), "taken");
+  for (const auto& [option, values] : {std::pair{"--psi", "30 kg, 0.4"},
+                                       {"--psi", "20 deg, 30 cm"},
+                                       {"--psi", "1, 0.4 s"},
+                                       {"--psid", "1 m, 1"},
+                                       {"--psid", "1, 1 m/s"},
+                                       {"--tau", "1 kg, 3"},
+                                       {"--tau", "1 N m, 1 N m"},
+                                       {"--tau", "1 N, 1 N"}})
+    EXPECT_EQ(with(option, values), "wrong_dimension") << option << ' ' << values;
 }
 
 TEST(DynamicsCommand, RefusesAStateOfTheWrongSize) {

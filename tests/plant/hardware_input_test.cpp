@@ -133,6 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"early", "faults: [{at: @-1, motor: 1, kind: off}]", "out_of_range", "before tick 0"},
         BadInput{"for_nothing", "faults: [{at: 0, for: @0, motor: 1, kind: off}]", "out_of_range",
                  "doesn't last"},
+        BadInput{"between_ticks", "faults: [{at: 0.2 ms, for: @0.3 ms, motor: 1, kind: off}]", "out_of_range",
+                 "no tick lies within"},
         BadInput{"motor_number", "faults: [{at: 0, motor: @4, kind: off}]", "out_of_range", "from 1 to 3"},
         BadInput{"motor_zero", "faults: [{at: 0, motor: @0, kind: off}]", "out_of_range", "from 1 to 3"},
         BadInput{"motor_name", "faults: [{at: 0, motor: @psi22, kind: off}]", "unknown_value", "psi2"},

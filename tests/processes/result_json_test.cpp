@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "processes/summary.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -64,6 +66,30 @@ TEST(ResultJson, LeavesOutWhatThereIsNone) {
   for (const char* key : {"session", "missing_ticks", "log", "warnings", "error", "safe_at", "seed",
                           "missed_deadlines", "overruns", "wake_up_p50"})
     EXPECT_FALSE(json_of(result).contains(key)) << key;
+}
+
+TEST(ResultJson, HasNullForWhatWasNeverMeasured) {
+  Result result = whole();
+  result.run->measures.max_position_error = result.run->measures.max_torque[1] = kNeverMeasured;
+  result.bus->round_trip = {};
+  const auto json = nlohmann::json::parse(json_of(result).dump());
+  EXPECT_TRUE(json["max_position_error"].is_null());
+  EXPECT_TRUE(json["max_torque"][1].is_null());
+  EXPECT_TRUE(json["bounds"][1]["value"].is_null());
+  EXPECT_TRUE(json["round_trip_p50"].is_null());
+  expect_read_back(result);
+}
+
+TEST(Summary, SaysWhatWasNeverMeasured) {
+  Result result = whole();
+  result.run->measures = {.max_torque = Vector::Constant(3, kNeverMeasured)};
+  result.bus->round_trip = {};
+  result.bus->deadlines->success_last_100 = kNeverMeasured;
+  const std::string text = summary({.name = "paper"}, result) + bus_summary(result);
+  for (const char* line : {"position error   never measured", "max torque       never measured",
+                           "round trip       never measured", "no tick was counted"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << " in\n" << text;
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
 }
 
 TEST(ResultJson, OfWhatDidNotRunSaysWhy) {

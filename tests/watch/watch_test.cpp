@@ -346,6 +346,15 @@ TEST(WatchText, SaysThatNoTimingWasHeard) {
   EXPECT_THAT(script.text(), HasSubstr("not heard: MIXLOOP_REFERENCE"));
 }
 
+TEST(WatchText, HasADashForWhatWasNeverMeasured) {
+  Script script;
+  script.state(0, {0, 0, 0});
+  script.reference(0, {1, 0, 0}, reference_t::PHASE_MOVE_TO_START);
+  script.send(Channel::timing, script.message<timing_t>(0));
+  EXPECT_THAT(script.text(), HasSubstr("\n1       1.000000          -         -         -"));
+  EXPECT_THAT(script.text(), HasSubstr("plant: round trip                -         -         -"));
+}
+
 TEST(WatchText, DrawsTorquesAgainstTheirLargest) {
   Script script;
   script.state(0, {0, 0, 0});
@@ -360,8 +369,10 @@ TEST(WatchJson, GivesNullForWhatIsNotKnownAndSiUnits) {
   Script script;
   script.state(0, {0, 0, 0});
   auto json = watch_json(script.watch.view(script.at));
-  for (const char* key : {"position_error", "max_position_error", "torque_limit", "applied_torque", "timing"})
+  for (const char* key : {"position_error", "max_position_error", "torque_limit", "applied_torque", "timing",
+                          "torque", "max_torque", "motor_error", "max_motor_error", "torque_unit"})
     EXPECT_TRUE(json.at(key).is_null()) << key;
+  EXPECT_TRUE(json["command_after_state"]["p50"].is_null());
   EXPECT_FALSE(json.contains("error")) << "that is for errors";
   json = watch_json(busy(3));
   EXPECT_DOUBLE_EQ(json["timing"]["round_trip_max"], 0.053107);

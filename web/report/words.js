@@ -1,6 +1,7 @@
 import { h, shown } from '../shared/dom.js';
 
 const mm = (value) => (value == null ? '–' : `${shown(value * 1e3, 9)} mm`);
+const never = 'never measured';
 const us = (value) => (value == null ? '–' : `${shown(value * 1e6, 4)} µs`);
 
 /** A table with a row a measure and a column a run; rows of which nothing is known are left out. */
@@ -29,20 +30,33 @@ function verdictOf(run) {
   return h('strong', { class: `verdict ${held ? 'held' : 'missed'}` }, `${held ? '✓' : '✗'} ${word}`);
 }
 
+const torqueUnit = (run, motor) => (run.names.motors[motor]?.linear ? 'N' : 'N m');
+
+/** Of each motor, in its unit: named once where the next has the same. */
+function torques(run) {
+  const list = run.result?.max_torque;
+  if (!list) return null;
+  if (list.every((x) => x === null)) return never;
+  const unit = (i) => (i + 1 < list.length && torqueUnit(run, i) === torqueUnit(run, i + 1) ? '' : ` ${torqueUnit(run, i)}`);
+  return list.map((x, i) => `${shown(x)}${unit(i)}`).join(', ');
+}
+
 /** What each run came to. */
 export function summaryTable(runs) {
-  const result = (key, as = (x) => x) => (run) => (run.result?.[key] === undefined ? null : as(run.result[key]));
+  const result = (key, as = (x) => x) => (run) =>
+    run.result?.[key] === undefined ? null : run.result[key] === null ? never : as(run.result[key]);
+  const measured = (run, key, logged) => (run.result?.[key] === undefined ? run.error[logged] : run.result[key]);
   const error = (key, logged) => (run) => {
-    const value = run.result?.[key] ?? run.error[logged];
-    return value === null ? null : mm(value);
+    const value = measured(run, key, logged);
+    return value === null ? (run.result ? never : null) : mm(value);
   };
   return table('What was measured', runs, [
     ['Verdict', verdictOf],
     ['Largest position error', error('max_position_error', 'max')],
-    ['… at', (run) => `${shown(run.result?.time_of_max_position_error ?? run.error.time_of_max)} s`],
+    ['… at', (run) => (measured(run, 'time_of_max_position_error', 'time_of_max') === null ? null : `${shown(measured(run, 'time_of_max_position_error', 'time_of_max'))} s`)],
     ['Final position error', error('final_position_error', 'final')],
     ['Root mean square error', error('rms_position_error', 'rms')],
-    ['Largest torques', result('max_torque', (list) => `${list.map((x) => shown(x)).join(', ')} N m`)],
+    ['Largest torques', (run) => torques(run)],
     ['Diverged at', result('diverged_at', (t) => `${shown(t)} s`)],
     ['Interrupted at', result('interrupted_at', (t) => `${shown(t)} s`)],
     ['Ticks', (run) => `${run.ticks - 1} at ${shown(run.rate)} Hz`],
@@ -63,8 +77,8 @@ export function boundsTable(runs) {
     if (!result) return [];
     const bounds = (result.bounds ?? []).map(({ name, motor, least, most, value, held }) => {
       const torque = motor !== undefined;
-      const show = (x) => (torque ? `${shown(x)} N m` : mm(x));
-      return [run.label, torque ? `${name}[${motor}]` : name, `${least > 0 ? `${show(least)} to ` : 'at most '}${show(most)}`, show(value), held];
+      const show = (x) => (torque ? `${shown(x)} ${torqueUnit(run, motor)}` : mm(x));
+      return [run.label, torque ? `${name}[${motor}]` : name, `${least > 0 ? `${show(least)} to ` : 'at most '}${show(most)}`, value === null ? never : show(value), held];
     });
     if (result.expects_divergence)
       bounds.push([run.label, 'diverges', 'yes', result.diverged_at === undefined ? 'no' : 'yes', result.diverged_at !== undefined]);
