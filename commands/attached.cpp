@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands/attached.hpp"
 
+#include "loop/recorded_plant.hpp"
 #include "processes/bus_line.hpp"
 #include "watch/session_judge.hpp"
 
@@ -22,6 +23,7 @@ RunFault no_plant_heard(const Bus& bus, const std::string& which) {
 Result attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
                 const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
+  require_memory(experiment, plan);
   Bus bus(options);
   SessionJudge judge(experiment, plan);
   say_complaint(judge.equations().complaint());

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/program/firmware.hpp"
 #include "dynamics/scene/load_scene.hpp"
+#include "loop/output_file.hpp"
 #include "loop/result.hpp"
 #include "notation/long_work.hpp"
 #include "processes/command_line.hpp"
@@ -42,10 +42,7 @@ int write_source(const CompileLine& options, const std::shared_ptr<const Scene>&
     fmt::print("{}", source);
     return 0;
   }
-  std::ofstream file(options.file);
-  file << source;
-  file.close();
-  if (!file) throw InputError("cannot_write", {options.file, 0, 0}, "cannot write the source");
+  write_file(options.file, source);
   if (options.json) print_json({{"file", options.file}, {"bytes", source.size()}});
   return 0;
 }

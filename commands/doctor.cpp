@@ -11,6 +11,7 @@
 #include "loop/result.hpp"
 #include "notation/long_work.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/standard_output.hpp"
 #include "report/progress.hpp"
 #include "runtime/machine/fitness.hpp"
 
@@ -61,7 +62,7 @@ int run(const DoctorLine& options) {
     if (options.json) continue;
     fmt::print("{:<5} {:<25} {}\n", name_of(finding.verdict), finding.what, finding.value);
     if (!finding.mend.empty()) fmt::print("      {:<25} {}\n", "", finding.mend);
-    std::fflush(stdout);
+    flush_standard_output();
   }
   if (options.json)
     print_json({{"fit", fit && !interrupted}, {"findings", findings}});

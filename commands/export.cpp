@@ -4,15 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
 #include "processes/command_line.hpp"
 #include "report/csv_folder.hpp"
+#include "report/kept_files.hpp"
 #include "report/progress.hpp"
 #include "runtime/bus/log_reader.hpp"
 #include "runtime/clock/stop_switch.hpp"
@@ -56,7 +59,7 @@ std::int32_t dimension(Bytes bytes) { return peek(bytes)->n; }
 /// Writes events into their channels' files.
 class Exporter {
  public:
-  explicit Exporter(const std::filesystem::path& folder) : folder_(folder) {}
+  explicit Exporter(const std::filesystem::path& folder) : out_(folder), folder_(folder) {}
 
   void add(const LogEvent& event) {
     Channel& channel = channels_[std::string(event.channel)];
@@ -98,7 +101,10 @@ class Exporter {
                       "MIXLOOP_STATE, _COMMAND or another of docs/messages.md",
                       names(skipped)));
     write_columns();
+    std::set<std::string> stale = exported_before();
     folder_.publish();
+    for (const auto& file : files) stale.erase(file["file"]);
+    for (const std::string& name : stale) std::filesystem::remove(out_ / name);
     return {{"files", files}, {"skipped_channels", skipped}};
   }
 
@@ -142,6 +148,22 @@ class Exporter {
         folder_.write(file, fmt::format("{},{},\"{}\"\n", folder_.name(*channel.file), column, said));
   }
 
+  // By the columns.csv of an earlier export into the same folder: its files and this one's don't stand side
+  // by side.
+  std::set<std::string> exported_before() const {
+    std::set<std::string> names;
+    std::ifstream columns(out_ / "columns.csv");
+    std::string line;
+    std::getline(columns, line);
+    if (line != "file,column,meaning") return names;
+    while (std::getline(columns, line))
+      if (const std::string name = line.substr(0, line.find(','));
+          name.ends_with(".csv") && name.find('/') == std::string::npos)
+        names.insert(name);
+    return names;
+  }
+
+  std::filesystem::path out_;
   CsvFolder folder_;
   std::map<std::string, Channel> channels_;
   AnyMessage message_;
@@ -159,6 +181,14 @@ void print_summary(const nlohmann::json& result) {
   fmt::print("columns and their units: {}/columns.csv\n", result["out"].get<std::string>());
 }
 
+/// What a reader must know of where the numbers come from.
+nlohmann::json notes_of(const std::string& log, const std::set<std::int64_t>& sessions) {
+  auto notes = nlohmann::json::array();
+  if (const std::string why = foreign_log(result_beside(log), log, sessions); !why.empty())
+    notes.push_back(why);
+  return notes;
+}
+
 int run(const ExportLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
@@ -166,9 +196,11 @@ int run(const ExportLine& options) {
   const std::string out = options.out.empty() ? options.log + ".csv" : options.out;
   Exporter exporter(out);
   Progress progress(options.log, log.size(), 1e6, "MB");
+  std::set<std::int64_t> sessions;
   while (const LogEvent* event = log.next()) {
     if (stop.turned()) break;
     exporter.add(*event);
+    if (const auto header = peek(event->data)) sessions.insert(header->session);
     progress.at(log.position());
   }
   progress.clear();
@@ -180,6 +212,7 @@ int run(const ExportLine& options) {
   nlohmann::json result = exporter.finish(options.log);
   result.update({{"log", options.log},
                  {"out", out},
+                 {"notes", notes_of(options.log, sessions)},
                  {"skipped_bytes", log.skipped_bytes()},
                  {"cut_off_bytes", log.cut_off_bytes()}});
   if (options.json) {
@@ -187,6 +220,7 @@ int run(const ExportLine& options) {
     return kHeld;
   }
   print_summary(result);
+  for (const auto& note : result["notes"]) fmt::print(stderr, "mixloop: {}\n", note.get<std::string>());
   if (!log.damage().empty()) fmt::print(stderr, "mixloop: {}: {}\n", options.log, log.damage());
   if (!result["skipped_channels"].empty())
     fmt::print(stderr, "mixloop: {}: left out, not of mixloop's types: {}\n", options.log,

@@ -3,7 +3,7 @@
 
 #include <tinyxml2.h>
 
-#include "notation/errors.hpp"
+#include "loop/output_file.hpp"
 
 namespace mixloop {
 
@@ -39,8 +39,9 @@ void write_junit(const std::string& file, std::span<const Result> results) {
   suite->SetAttribute("failures", failures);
   suite->SetAttribute("errors", errors);
   suite->SetAttribute("skipped", skipped);
-  if (document.SaveFile(file.c_str()) != tinyxml2::XML_SUCCESS)
-    throw RunFault("cannot_write", "cannot write " + file);
+  tinyxml2::XMLPrinter text;
+  document.Print(&text);
+  write_file(file, text.CStr());
 }
 
 }  // namespace mixloop

@@ -15,6 +15,7 @@
 #include "commands/children.hpp"
 #include "commands/warnings.hpp"
 #include "loop/inputs.hpp"
+#include "loop/recorded_plant.hpp"
 #include "processes/command_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/report_line.hpp"
@@ -241,9 +242,10 @@ Result launched(const Experiment& experiment, const Launch& launch, const StopSw
                      "plant.control is 'continuous': over the bus a torque is held from tick to tick; "
                      "expected 'held' (mixloop simulate runs both)");
   const Plan plan = make_plan(experiment);
+  require_memory(experiment, plan);
   require_multicast_route(multicast_group(launch.bus.url));
   if (!launch.out.empty()) {
-    prepare_folder(launch.out);
+    begin_run_folder(launch.out);
     keep_inputs(launch.out, experiment);  // also where a stranger's plant keeps nothing
   }
   // The programs are compiled once, not by each process.

@@ -70,7 +70,7 @@ int once(const MonitorLine& options, Watch& watch, Bus& bus, const StopSwitch& s
   if (options.json)
     print_json(watch_json(view));
   else
-    for (const Line& line : watch_lines(view, 80, 1000)) fmt::print("{}\n", to_text(line));
+    for (const Line& line : whole_watch_lines(view)) fmt::print("{}\n", to_text(line));
   return stop.turned() ? kInterrupted : kHeld;
 }
 

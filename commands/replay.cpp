@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/controller_side.hpp"
+#include "report/kept_files.hpp"
 #include "report/progress.hpp"
 #include "runtime/bus/log_reader.hpp"
 #include "runtime/clock/stop_switch.hpp"
+#include "runtime/protocol/config_hash.hpp"
 #include "watch/tick_assembly.hpp"
 
 namespace mixloop {
@@ -55,6 +58,25 @@ class Replay {
   }
   const Replayed& result() const { return result_; }
 
+  /// Why none of the log's commands could be gone through, for a person.
+  std::string why_none(const Experiment& experiment) const {
+    if (heard_ == 0)
+      return "it has no message on " + names_[2] + "; expected another --channel-prefix, or the log of a run";
+    const std::string messages = fmt::format("its {} messages on {} ", heard_, names_[2]);
+    if (of_another_type_ > 0)
+      return messages + "are of another type than mixloop.command_t; expected a log of mixloop's messages";
+    if (of_another_n_ > 0)
+      return messages + fmt::format(
+                            "are of another number of motors than the experiment's {}; expected the log of a "
+                            "run of the same experiment",
+                            experiment.scene->n_u());
+    if (config_)
+      return messages + "are of another experiment: its " +
+             name_difference(config_of(common_ground(experiment)), *config_) +
+             " differ; expected the log of a run of the same experiment (--set)";
+    return messages + "can't be read; expected the log of a run of the same experiment";
+  }
+
  private:
   static std::int64_t farthest_extrapolated(const Experiment& experiment) {
     return std::min<std::int64_t>(experiment.deadline.max_missed, kFarthestExtrapolated);
@@ -70,9 +92,16 @@ class Replay {
   }
 
   void compare(Bytes bytes) {
-    if (commands_.read(bytes)) return;
+    ++heard_;
+    if (commands_.read(bytes)) {
+      const bool is_command = fingerprint(bytes) == command_t::getHash();
+      of_another_type_ += !is_command;
+      of_another_n_ += is_command && peek(bytes)->n != commands_.message.n;
+      return;
+    }
     const command_t& logged = commands_.message;
     const Taken taken = ticks_.add(logged);
+    if (taken == Taken::other_config) config_ = logged.config;
     if (taken == Taken::other_session || taken == Taken::other_config || logged.seq <= latest_) return;
     const auto* state = ticks_.find<state_t>(logged.seq);
     const auto* reference = ticks_.find<reference_t>(logged.seq - extrapolated_by(logged.flags));
@@ -120,16 +149,19 @@ class Replay {
   std::array<std::string, 3> names_;
   TickAssembly ticks_;
   std::int64_t latest_ = -1;
+  std::int64_t heard_ = 0, of_another_type_ = 0, of_another_n_ = 0;  ///< messages where commands should be
+  std::optional<std::int64_t> config_;                               ///< of another experiment's
   Replayed result_;
 };
 
-int tell(const Replayed& replayed, const std::string& damage, bool json) {
+int tell(const Replayed& replayed, const std::string& damage, const std::string& note, bool json) {
   const bool held = replayed.commands > 0 && replayed.identical == replayed.commands;
   if (json) {
     nlohmann::json result = {{"commands", replayed.commands},
                              {"identical", replayed.identical},
                              {"without_inputs", replayed.without_inputs},
                              {"damage", damage},
+                             {"note", note},
                              {"verdict", held ? "held" : "missed"}};
     if (replayed.first_difference) result["first_difference"] = *replayed.first_difference;
     print_json(result);
@@ -142,7 +174,8 @@ int tell(const Replayed& replayed, const std::string& damage, bool json) {
   if (replayed.without_inputs > 0)
     fmt::print("  {} more could not be gone through: the log lacks their state or reference\n",
                replayed.without_inputs);
-  if (!damage.empty()) fmt::print("  {}\n", damage);
+  for (const std::string& line : {damage, note})
+    if (!line.empty()) fmt::print("  {}\n", line);
   return held ? kHeld : kMissed;
 }
 
@@ -155,15 +188,16 @@ int run(const ReplayLine& options) {
   const Plan plan = make_plan(experiment);
   Replay replay(experiment, plan, options.prefix);
   LogReader log(options.log);
+  std::set<std::int64_t> sessions;
   while (const LogEvent* event = log.next()) {
     if (stop.turned()) return kInterrupted;
     replay.take(*event);
+    if (const auto header = peek(event->data)) sessions.insert(header->session);
   }
   if (replay.result().commands + replay.result().without_inputs == 0)
-    throw InputError("no_commands", {options.log},
-                     "no COMMAND of this experiment on " + options.prefix +
-                         "*; expected the log of a run of the same experiment (--set, --channel-prefix)");
-  return tell(replay.result(), log.damage(), options.json);
+    throw InputError("no_commands", {options.log}, replay.why_none(experiment));
+  const std::string note = foreign_log(result_beside(options.log), options.log, sessions);
+  return tell(replay.result(), log.damage(), note, options.json);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -11,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "commands/log_options.hpp"
 #include "commands/web_page.hpp"
+#include "loop/output_file.hpp"
 #include "report/page.hpp"
 #include "report/progress.hpp"
 
@@ -62,9 +62,7 @@ int run(ReportLine& options) {
   std::vector<ReportedRun> runs = read_runs(options);
   const std::string text = report_page(page, runs, kMostBytes);
   const std::string out = options.out.empty() ? default_out(options.paths.front()) : options.out;
-  std::ofstream file(out, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw RunFault("cannot_write", "cannot write " + out);
+  write_file(out, text);
   nlohmann::json json = {{"file", out}, {"bytes", text.size()}, {"results", nlohmann::json::array()}};
   for (const auto& run : runs)
     json["results"].push_back({{"label", run.label},

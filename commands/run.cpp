@@ -9,6 +9,7 @@
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
 #include "processes/speed.hpp"
+#include "processes/standard_output.hpp"
 #include "processes/summary.hpp"
 #include "report/progress.hpp"
 #include "runtime/protocol/real_time_plant.hpp"
@@ -38,7 +39,7 @@ int run(RunLine& options) {
     if (options.json) return;
     fmt::print("{}{}", summary(experiment, result), bus_summary(result));
     if (!launch.out.empty()) fmt::print("  kept in {}\n", launch.out);
-    std::fflush(stdout);
+    flush_standard_output();
   };
   bool printed = false;
   const auto at_end = [&](const Result& result) {
@@ -50,7 +51,7 @@ int run(RunLine& options) {
         "namespace:\n"
         "  nsenter --preserve-credentials --user --net --target {}\n",
         getpid());
-    std::fflush(stdout);
+    flush_standard_output();
   };
   const Result result = launched(experiment, launch, stop, at_end);
   if (!launch.out.empty()) keep_result(launch.out, result);

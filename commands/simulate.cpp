@@ -17,6 +17,7 @@
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
 #include "processes/summary.hpp"
+#include "report/kept_files.hpp"
 #include "report/progress.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/stop_switch.hpp"
@@ -35,7 +36,12 @@ Result simulated(Experiment loaded, const std::string& out, const StopSwitch& st
   const Plan plan = make_plan(loaded);
   const Experiment experiment = with_integrator_settled(loaded, plan);
   auto warnings = warnings_of(experiment, plan, quiet);
-  if (!out.empty()) prepare_folder(out);
+  if (const std::string why = ages.empty() ? "" : foreign_file(result_beside(ages), ages); !why.empty()) {
+    warnings.push_back(why);
+    if (!quiet) fmt::print(stderr, "warning: {}\n", why);
+  }
+  require_memory(experiment, plan);
+  if (!out.empty()) begin_run_folder(out);
   RecordedPlant plant(experiment, plan);
   say_complaint(plant.plant().equations().complaint());
   Progress progress(experiment.name, plan.ticks(), experiment.rate_hz);

@@ -11,6 +11,7 @@
 #include "loop/result.hpp"
 #include "loop/review.hpp"
 #include "notation/long_work.hpp"
+#include "notation/number_text.hpp"
 #include "plant/hardware.hpp"
 #include "processes/command_line.hpp"
 #include "report/progress.hpp"
@@ -128,7 +129,7 @@ nlohmann::json confirmation(const Experiment& experiment, const Plan& plan, cons
 
 std::string milliseconds(const nlohmann::json& limit) {
   if (limit.is_null()) return "no limit";
-  return limit == 0.0 ? "none works" : fmt::format("{:.3f} ms", limit.get<double>() * 1e3);
+  return limit == 0.0 ? "none works" : fixed(limit.get<double>() * 1e3, 3) + " ms";
 }
 
 std::string factor(const nlohmann::json& limit) {

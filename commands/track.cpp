@@ -11,8 +11,10 @@
 #include "commands/launched.hpp"
 #include "commands/simulated.hpp"
 #include "notation/long_work.hpp"
+#include "notation/number_text.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/result_json.hpp"
+#include "processes/standard_output.hpp"
 #include "report/progress.hpp"
 
 namespace mixloop {
@@ -92,11 +94,11 @@ void print_line(const Result& result) {
   std::string text = measures.diverged_at ? fmt::format("diverged at {:.6g} s", *measures.diverged_at)
                      : std::isnan(measures.max_position_error)
                          ? "its position error was never measured"
-                         : fmt::format("max {:.7f} mm, final {:.7f} mm", measures.max_position_error * 1e3,
-                                       measures.final_position_error * 1e3);
+                         : fmt::format("max {} mm, final {} mm", fixed(measures.max_position_error * 1e3, 7),
+                                       fixed(measures.final_position_error * 1e3, 7));
   for (const auto& line : result.judged.missed) text += "; " + line;
   fmt::print("{:<12} {:<28} {}\n", name_of(result.judged.verdict), result.experiment, text);
-  std::fflush(stdout);
+  flush_standard_output();
 }
 
 int run(const TrackLine& options) {

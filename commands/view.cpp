@@ -7,6 +7,7 @@
 #include "commands/log_options.hpp"
 #include "commands/web_page.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/standard_output.hpp"
 #include "report/progress.hpp"
 #include "view/bus_source.hpp"
 #include "view/log_source.hpp"
@@ -51,7 +52,7 @@ int run(ViewLine& options) {
     print_json({{"url", url}, {"mode", is_experiment(options.what) ? "live" : "log"}});
   else
     fmt::print("{}: open it in a browser on this machine; Ctrl-C ends it\n", url);
-  std::fflush(stdout);
+  flush_standard_output();
   server.run(*source, stop);
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dynamics/scene/coordinate_values.hpp"
+#include "notation/number_text.hpp"
 
 namespace mixloop {
 namespace {
@@ -34,9 +35,9 @@ std::string GuardedController::start_refusal(std::span<const double> psi, const 
     const double should = start.psi[static_cast<Eigen::Index>(i)];
     if (std::abs(psi[i] - should) <= tolerance) continue;
     const std::string unit = std::string(" ") + position_unit(controller_.scene().motors()[i].linear);
-    return "motor " + std::to_string(i + 1) + " stands at " + std::to_string(psi[i]) + unit +
-           ", the path starts at " + std::to_string(should) + unit +
-           ", farther than controller.safety.start_tolerance (" + std::to_string(tolerance) + unit +
+    return "motor " + std::to_string(i + 1) + " stands at " + fixed(psi[i], 6) + unit +
+           ", the path starts at " + fixed(should, 6) + unit +
+           ", farther than controller.safety.start_tolerance (" + fixed(tolerance, 6) + unit +
            "): say where it stands by plant.initial, and path.approach to move there";
   }
   return "";

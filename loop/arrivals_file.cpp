@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "loop/output_file.hpp"
 #include "notation/errors.hpp"
 
 namespace mixloop {
@@ -140,8 +141,8 @@ bool sound(const Arrival& arrival, const std::vector<Arrival>& before) {
 
 }  // namespace
 
-void write_arrivals(const std::filesystem::path& file, const Arrivals& arrivals) {
-  std::ofstream out(file);
+std::string write_arrivals(const std::filesystem::path& file, const Arrivals& arrivals) {
+  std::ostringstream out;
   out << kHeader << '\n';
   auto next = arrivals.interventions.begin();
   const auto write_until = [&](std::int64_t tick) {
@@ -153,7 +154,7 @@ void write_arrivals(const std::filesystem::path& file, const Arrivals& arrivals)
     out << a.tick << ',' << a.offset << ',' << a.command << ',' << text_of(a) << '\n';
   }
   write_until(std::numeric_limits<std::int64_t>::max());
-  if (!out.flush()) throw RunFault("cannot_write", "cannot write " + file.string());
+  return write_file(file, out.view());
 }
 
 Arrivals read_arrivals(const std::filesystem::path& file) {

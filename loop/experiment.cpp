@@ -8,6 +8,7 @@
 
 #include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/scene/load_scene.hpp"
+#include "notation/formula.hpp"
 #include "notation/value.hpp"
 #include "plant/hardware.hpp"
 
@@ -25,6 +26,30 @@ NodePtr overridden(NodePtr document, const std::vector<Override>& overrides, boo
   return document;
 }
 
+/// A scene's parameter keeps the dimension that its file gives it.
+void check_parameter(const Node& scene, const NodePtr& changed, const std::string& name) {
+  const NodePtr parameters = find_entry(scene, "parameters");
+  const NodePtr before = parameters ? find_entry(*parameters, name) : nullptr;
+  const NodePtr after = find_entry(*find_entry(*changed, "parameters"), name);
+  if (!before || before->kind != Node::Kind::scalar) return;
+  const std::string what = "the parameter '" + name + "'";
+  number_of(*after, parse_formula(*before, what, Scope()).dimension, what);
+}
+
+/// A scene's document with overrides of its own entries.
+NodePtr overridden_scene(const NodePtr& document, const std::vector<Override>& overrides, bool of_scene) {
+  static constexpr std::string_view kParameters = "parameters.";
+  const NodePtr changed = overridden(document, overrides, of_scene);
+  for (const auto& [key, value] : overrides) {
+    const std::string_view own =
+        of_scene && key.starts_with("scene.") ? std::string_view(key).substr(6) : key;
+    if (key.starts_with("scene.") == of_scene && own.starts_with(kParameters) &&
+        own.find_first_of(".[", kParameters.size()) == std::string_view::npos)
+      check_parameter(*document, changed, std::string(own.substr(kParameters.size())));
+  }
+  return changed;
+}
+
 NodePtr scene_document_at(const Node& node, const std::filesystem::path& base,
                           const std::vector<Override>& overrides) {
   const std::filesystem::path file = base / text_of(node, "the path of a scene file");
@@ -32,7 +57,7 @@ NodePtr scene_document_at(const Node& node, const std::filesystem::path& base,
   if (!std::filesystem::exists(file, failure))
     throw InputError("no_such_file", node.place,
                      "no scene at " + describe(node) + " (its path counts from the experiment's folder)");
-  return overridden(read_document(file), overrides, true);
+  return overridden_scene(read_document(file), overrides, true);
 }
 
 double read_rate(const Node& node) {
@@ -188,7 +213,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
 }
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return load_scene(overridden(read_document(file), overrides, false));
+  return load_scene(overridden_scene(read_document(file), overrides, false));
 }
 
 Plan make_plan(const Experiment& experiment) {

@@ -12,10 +12,11 @@ namespace mixloop {
 nlohmann::ordered_json json_of(const Node& node);
 
 /// What a run was started from, overrides applied: {"name", "rate", "experiment", "scene",
-/// "plant_parameters"}. The documents read back (JSON is YAML).
+/// "limits", "faults", "plant_parameters"}. The documents read back (JSON is YAML); limits and faults are
+/// what they come to, in SI and in words.
 nlohmann::ordered_json inputs_json(const Experiment& experiment);
 
-/// Writes inputs.json into the folder. Throws RunFault("cannot_write").
-void keep_inputs(const std::filesystem::path& folder, const Experiment& experiment);
+/// Writes inputs.json into the folder; its SHA-256. Throws RunFault("cannot_write").
+std::string keep_inputs(const std::filesystem::path& folder, const Experiment& experiment);
 
 }  // namespace mixloop

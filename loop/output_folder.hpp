@@ -9,4 +9,8 @@ namespace mixloop {
 /// that cannot be written. Throws RunFault("cannot_write").
 void prepare_folder(const std::filesystem::path& folder);
 
+/// The same for a run that begins: what an earlier one left there (its result, trajectory, inputs, ages, log
+/// and report) is removed, so that files of two runs never stand side by side.
+void begin_run_folder(const std::filesystem::path& folder);
+
 }  // namespace mixloop

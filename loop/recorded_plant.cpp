@@ -1,10 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include "loop/recorded_plant.hpp"
 
+#include <fmt/format.h>
+
+#include "loop/free_memory.hpp"
+
 namespace mixloop {
 
+namespace {
+
+const Experiment& checked(const Experiment& experiment, const Plan& plan) {
+  require_memory(experiment, plan);
+  return experiment;
+}
+
+}  // namespace
+
+void require_memory(const Experiment& experiment, const Plan& plan) {
+  const double ticks = static_cast<double>(plan.ticks());
+  const double bytes =
+      ticks * static_cast<double>(Recorder::bytes_a_tick(*experiment.scene) + sizeof(Arrival));
+  const double free = free_memory();
+  if (bytes <= free) return;
+  throw InputError(
+      "too_large", experiment.path.place,
+      fmt::format("the record of {:.0f} ticks at {:g} Hz takes {:.3g} GB of memory, and {:.3g} GB are free; "
+                  "expected a shorter path, fewer laps or a lower rate",
+                  ticks, experiment.rate_hz, bytes * 1e-9, free * 1e-9));
+}
+
 RecordedPlant::RecordedPlant(const Experiment& experiment, const Plan& plan)
-    : experiment_(experiment),
+    : experiment_(checked(experiment, plan)),
       plan_(plan),
       hardware_(make_deadline_plant(experiment, plan)),
       recorder_(experiment, plan),

@@ -6,6 +6,10 @@
 
 namespace mixloop {
 
+/// Throws InputError("too_large") where the record of a run takes more memory than is free here: before it is
+/// taken.
+void require_memory(const Experiment& experiment, const Plan& plan);
+
 /// A plant and the record of its run. It alone knows the order of things in a tick, in lockstep and in real
 /// time, so that whoever drives it, in this process or over the bus, gets the same bytes:
 ///
@@ -17,7 +21,7 @@ namespace mixloop {
 /// once tick k is recorded. Nothing allocates after construction.
 class RecordedPlant {
  public:
-  /// What is passed must outlive it.
+  /// What is passed must outlive it. Throws what require_memory throws.
   RecordedPlant(const Experiment& experiment, const Plan& plan);
 
   const Experiment& experiment() const { return experiment_; }

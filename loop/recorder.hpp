@@ -16,6 +16,11 @@ class Recorder {
  public:
   Recorder(const Experiment& experiment, const Plan& plan);
 
+  /// What the record takes, all its ticks alike.
+  static std::size_t bytes_a_tick(const Scene& scene) {
+    return sizeof(double) * (2 * scene.independent.size() + 2 * scene.motors().size() + 1);
+  }
+
   /// Takes the state at tick k and the work done until then. False where the run has diverged: the position
   /// error is past its limit or something is not finite; then the tick is not recorded. Ticks past the plan's
   /// end (a plant that holds on) are watched, and the last two of them kept.

@@ -105,6 +105,7 @@ struct Result {
   std::optional<std::int64_t> session;
   std::optional<std::int64_t> missing_ticks;  ///< of a run that was listened to
   std::optional<Log> log;
+  std::optional<std::map<std::string, std::string>> files;  ///< kept with it: their SHA-256, the log's apart
   std::optional<std::vector<std::string>> warnings;
   std::optional<Error> error;
 };

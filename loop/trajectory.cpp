@@ -2,12 +2,11 @@
 #include "loop/trajectory.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <array>
-#include <cstdio>
 #include <iterator>
 
+#include "loop/output_file.hpp"
 #include "loop/truth.hpp"
 
 namespace mixloop {
@@ -31,16 +30,15 @@ std::string header(std::size_t n, std::size_t n_u) {
 
 }  // namespace
 
-void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan,
-                      const Recorder& recorder) {
+std::string write_trajectory(const std::filesystem::path& file, const Experiment& experiment,
+                             const Plan& plan, const Recorder& recorder) {
   TruthReader truth_of(experiment, recorder);
-  std::FILE* out = std::fopen(file.c_str(), "w");
-  if (!out) throw RunFault("cannot_write", "cannot write " + file.string());
+  OutputFile out(file);
   fmt::memory_buffer line;
   const auto add = [&](std::span<const double> values) {
     for (const double value : values) fmt::format_to(std::back_inserter(line), ",{}", value);
   };
-  fmt::print(out, "{}\n", header(experiment.scene->independent.size(), experiment.scene->motors().size()));
+  out.write(header(experiment.scene->independent.size(), experiment.scene->motors().size()) + "\n");
   for (std::int64_t k = 0; k < recorder.ticks_recorded(); ++k) {
     line.clear();
     fmt::format_to(std::back_inserter(line), "{}", recorder.time(k));
@@ -55,11 +53,9 @@ void write_trajectory(const std::filesystem::path& file, const Experiment& exper
     add(std::array{truth.kinetic_energy, truth.potential_energy, truth.work});
     add(span_of(desired.psi));
     line.push_back('\n');
-    std::fwrite(line.data(), 1, line.size(), out);
+    out.write({line.data(), line.size()});
   }
-  const bool failed = std::ferror(out) != 0;
-  if (std::fclose(out) != 0 || failed)
-    throw RunFault("cannot_write", "cannot write all of " + file.string() + " (is the disk full?)");
+  return out.publish();
 }
 
 }  // namespace mixloop

@@ -11,7 +11,7 @@ namespace mixloop {
 /// tau (commanded), tau_applied, then the end effector's position, velocity and acceleration, desired and
 /// actual, the energies and the motors' work, and where the motors should be. Throws
 /// RunFault("cannot_write").
-void write_trajectory(const std::filesystem::path& file, const Experiment& experiment, const Plan& plan,
-                      const Recorder& recorder);
+std::string write_trajectory(const std::filesystem::path& file, const Experiment& experiment,
+                             const Plan& plan, const Recorder& recorder);
 
 }  // namespace mixloop

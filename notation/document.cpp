@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "notation/look_alikes.hpp"
 #include "notation/nearest.hpp"
 #include "notation/utf8.hpp"
 
@@ -57,18 +58,20 @@ bool flag_of(const Node& node, const std::string& what) {
   for (const char* word : {"false", "no", "off"})
     if (text == word) return false;
   throw InputError("wrong_kind", node.place,
-                   "found " + in_quotes(text) + "; expected true or false for " + what);
+                   "found " + in_quotes(text) + "; expected true or false for " + what + look_alike_in(text));
 }
 
 Mapping::Mapping(NodePtr node, std::string what, std::vector<std::string> known)
     : node_(std::move(node)), what_(std::move(what)) {
   if (node_->kind != Node::Kind::mapping)
-    throw InputError("wrong_kind", node_->place,
-                     "found " + describe(*node_) + "; expected " + what_ + " as a mapping");
+    throw InputError(
+        "wrong_kind", node_->place,
+        "found " + describe(*node_) + "; expected " + what_ + " as a mapping" + look_alike_in(node_->text));
   for (const auto& entry : node_->entries)
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
       throw InputError("unknown_key", entry.place,
-                       "unknown key " + in_quotes(entry.key) + " in " + what_ + suggestion(entry.key, known));
+                       "unknown key " + in_quotes(entry.key) + " in " + what_ + suggestion(entry.key, known) +
+                           look_alike_in(entry.key));
 }
 
 NodePtr find_entry(const Node& mapping, std::string_view key) {

@@ -7,6 +7,7 @@
 
 #include "notation/document.hpp"
 #include "notation/formula_words.hpp"
+#include "notation/look_alikes.hpp"
 #include "notation/nearest.hpp"
 #include "notation/unit.hpp"
 #include "notation/utf8.hpp"
@@ -45,7 +46,7 @@ class Parser {
     Formula formula = sum();
     skip_space();
     if (at_ < text_.size())
-      fail("invalid_formula", at_, fmt::format("found {}; expected an operator", rest()));
+      fail("invalid_formula", at_, fmt::format("found {}; expected an operator{}", rest(), decimal_comma()));
     formula.place = scalar_.place;
     return formula;
   }
@@ -64,7 +65,12 @@ class Parser {
   };
 
   [[noreturn]] void fail(const char* code, std::size_t at, const std::string& message) const {
-    throw InputError(code, place_in(scalar_, at), message + " in " + in_quotes(text_, 80));
+    throw InputError(code, place_in(scalar_, at),
+                     message + " in " + in_quotes(text_, 80) + look_alike_in(text_));
+  }
+  std::string decimal_comma() const {
+    const bool is_one = text_[at_] == ',' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]);
+    return is_one ? " (a number has a decimal point: 0.5, not 0,5)" : "";
   }
   std::string rest() const { return in_quotes(text_.substr(at_), 20); }
   void skip_space() {
@@ -169,8 +175,7 @@ class Parser {
       const std::size_t unit_at = at_;
       const auto unit = find_unit(name);
       if (!unit)
-        fail("unknown_unit", unit_at,
-             fmt::format("unknown unit {}{}", in_quotes(name), suggestion(name, unit_names())));
+        fail("unknown_unit", unit_at, fmt::format("unknown unit {}{}", in_quotes(name), unit_hint(name)));
       at_ += name.size();
       result = joined(Op::multiply, std::move(result),
                       power_of(constant_formula(unit->factor, unit->dimension)), unit_at);

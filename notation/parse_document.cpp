@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "notation/document.hpp"
+#include "notation/look_alikes.hpp"
 #include "notation/utf8.hpp"
 
 namespace mixloop {
@@ -179,9 +180,22 @@ class TreeBuilder final : public YAML::EventHandler {
     } else if (!parent.has_key) {
       take_key(parent, *node, at);
     } else {
+      refuse_decimal_comma(parent, *node);
       parent.node->entries.push_back({std::move(parent.key), parent.key_place, std::move(node)});
       parent.has_key = false;
     }
+  }
+
+  /// `{mass: 0,5 kg}` has the keys "mass" and "5 kg".
+  static void refuse_decimal_comma(const Open& parent, const Node& value) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    const auto& entries = parent.node->entries;
+    if (value.kind != Node::Kind::empty || entries.empty() || !is_digit(parent.key[0])) return;
+    const std::string& before = entries.back().value->text;
+    if (before.empty() || !std::all_of(before.begin() + (before[0] == '-'), before.end(), is_digit)) return;
+    throw InputError("invalid_yaml", parent.key_place,
+                     fmt::format("{} where a key is expected: a comma parts entries; for {},{} write {}.{}",
+                                 in_quotes(parent.key), before, parent.key, before, parent.key));
   }
 
   static void take_key(Open& parent, const Node& key, const Place& at) {
@@ -220,6 +234,13 @@ void refuse_binary(std::string_view text, const std::string& file) {
                                static_cast<unsigned char>(text[*at])));
 }
 
+/// The line of that number, from 0.
+std::string_view line_of(std::string_view text, int number) {
+  for (; number > 0 && !text.empty(); --number)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find('\n'));
+}
+
 }  // namespace
 
 NodePtr parse_document(std::string_view text, const std::string& file) {
@@ -241,8 +262,12 @@ NodePtr parse_document(std::string_view text, const std::string& file) {
   } catch (const YAML::Exception& error) {
     // yaml-cpp quotes the character at fault, at the end of a file a NUL: what follows it is left out.
     const std::string reason = error.msg.substr(0, first_non_text(error.msg).value_or(error.msg.size()));
+    const std::string_view line = line_of(text, error.mark.line),
+                           before = line_of(text, std::max(error.mark.line - 1, 0));
+    std::string look_alike = look_alike_in(line);
+    if (look_alike.empty()) look_alike = look_alike_in(before);  // what went wrong there shows here
     throw InputError("invalid_yaml", {file, error.mark.line + 1, error.mark.column + 1},
-                     "no valid YAML: " + reason);
+                     "no valid YAML: " + reason + tab_before(line) + look_alike);
   }
 }
 

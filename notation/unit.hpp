@@ -22,4 +22,9 @@ std::optional<Unit> find_unit(std::string_view name);
 /// The names of all units, for messages.
 const std::vector<std::string>& unit_names();
 
+/// What may be meant by a word that is no unit of ours, a clause for a message: its worth in one of ours
+/// where it is known ("; 1 g is 0.001 kg"), else the nearest of ours that is no other power of ten, else all
+/// of them.
+std::string unit_hint(std::string_view word);
+
 }  // namespace mixloop

@@ -7,10 +7,15 @@
 #include <cmath>
 
 #include "notation/formula.hpp"
+#include "notation/look_alikes.hpp"
 #include "notation/nearest.hpp"
 #include "notation/utf8.hpp"
 
 namespace mixloop {
+
+std::string decimal_commas(std::size_t found, std::size_t expected) {
+  return found == 2 * expected ? " (a comma parts values: a number has a decimal point, 0.5)" : "";
+}
 
 double number_of(const Node& node, const Dimension& wanted, const std::string& what) {
   static const Scope no_names;
@@ -24,7 +29,8 @@ std::vector<double> numbers_of(const NodePtr& node, const Dimension& wanted, std
   const auto items = items_of(node, what);
   if (size != 0 && items.size() != size)
     throw InputError("wrong_size", node->place,
-                     fmt::format("found {}; expected {}, a list of {}", describe(*node), what, size));
+                     fmt::format("found {}; expected {}, a list of {}{}", describe(*node), what, size,
+                                 decimal_commas(items.size(), size)));
   std::vector<double> values;
   for (const auto& item : items) values.push_back(number_of(*item, wanted, what));
   return values;
@@ -45,7 +51,8 @@ std::size_t word_of(const Node& node, const std::vector<std::string>& words, con
   const std::string& text = text_of(node, what);
   const auto found = std::find(words.begin(), words.end(), text);
   if (found == words.end())
-    throw InputError("unknown_value", node.place, what + " is " + in_quotes(text) + suggestion(text, words));
+    throw InputError("unknown_value", node.place,
+                     what + " is " + in_quotes(text) + suggestion(text, words) + look_alike_in(text));
   return static_cast<std::size_t>(found - words.begin());
 }
 

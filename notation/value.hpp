@@ -17,6 +17,9 @@ double number_of(const Node& node, const Dimension& wanted, const std::string& w
 std::vector<double> numbers_of(const NodePtr& node, const Dimension& wanted, std::size_t size,
                                const std::string& what);
 
+/// " (...)" for a message where twice as many values were found: as of numbers with decimal commas. Else "".
+std::string decimal_commas(std::size_t found, std::size_t expected);
+
 /// A whole number within [least, most].
 long whole_number_of(const Node& node, long least, long most, const std::string& what);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -72,6 +73,9 @@ std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool fri
 
 /// The first tick at or after a time, s.
 std::int64_t first_tick_at(double time, double rate_hz);
+
+/// What goes wrong, when and for how long: "motor psi2 is stuck from 0.3 s on, for 0.2 s".
+std::string to_string(const Fault& fault, const Scene& scene);
 
 /// One scalar's way through a fault, tick by tick. Within a tick it may be asked again, with another value:
 /// the last one counts.

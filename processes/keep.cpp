@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "processes/keep.hpp"
 
-#include <fstream>
-
+#include "loop/arrivals_file.hpp"
 #include "loop/inputs.hpp"
+#include "loop/output_file.hpp"
 #include "loop/trajectory.hpp"
 #include "notation/long_work.hpp"
 #include "processes/result_json.hpp"
 
 namespace mixloop {
 
-void keep(const std::filesystem::path& folder, const RecordedPlant& run, const Result& result) {
+void keep(const std::filesystem::path& folder, const RecordedPlant& run, Result& result) {
   const Uninterrupted whole;
-  write_trajectory(folder / "trajectory.csv", run.experiment(), run.plan(), run.recorder());
-  keep_inputs(folder, run.experiment());
+  auto& files = result.files.emplace();
+  if (result.run->route == "real_time")
+    files["ages.csv"] = write_arrivals(folder / "ages.csv", run.deadlines().arrivals());
+  files["trajectory.csv"] =
+      write_trajectory(folder / "trajectory.csv", run.experiment(), run.plan(), run.recorder());
+  files["inputs.json"] = keep_inputs(folder, run.experiment());
   keep_result(folder, result);
 }
 
 void keep_result(const std::filesystem::path& folder, const Result& result) {
-  std::ofstream out(folder / "result.json");
-  out << json_of(result).dump(2) << '\n';
-  if (!out.flush()) throw RunFault("cannot_write", "cannot write " + (folder / "result.json").string());
+  write_file(folder / "result.json", json_of(result).dump(2) + "\n");
 }
 
 }  // namespace mixloop

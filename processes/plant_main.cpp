@@ -23,7 +23,8 @@ int run(const PlantLine& line) {
   const Plan plan = make_plan(loaded);
   const Experiment experiment = with_integrator_settled(loaded, plan);
   ReportLine report(line.report_fd);
-  if (!line.out.empty()) prepare_folder(line.out);
+  // Of `mixloop run` it has been done, and its log lies there.
+  if (!line.out.empty() && line.report_fd < 0) begin_run_folder(line.out);
   Bus bus(line.bus);
   if (line.report_fd < 0) line.say_waiting("mixloop-plant", "a controller and a planner", "COMMAND");
   for (std::int64_t session = line.session;;) {

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "loop/arrivals_file.hpp"
 #include "loop/review.hpp"
 #include "notation/long_work.hpp"
 #include "processes/bus_figures.hpp"
 #include "processes/keep.hpp"
 #include "processes/plant_on_bus.hpp"
 #include "processes/result_json.hpp"
+#include "processes/standard_output.hpp"
 #include "processes/summary.hpp"
 #include "runtime/protocol/lockstep_plant.hpp"
 #include "runtime/protocol/real_time_plant.hpp"
@@ -85,8 +85,6 @@ void PlantSession::finish(const RunFault* fault) {
   if (!line_.out.empty()) {
     report_.keeping();
     keep(line_.out, run_, result);
-    if (line_.real_time)
-      write_arrivals(std::filesystem::path(line_.out) / "ages.csv", run_.deadlines().arrivals());
   }
   report_.result(result);
   if (fault) return;  // the command line tells it
@@ -94,7 +92,7 @@ void PlantSession::finish(const RunFault* fault) {
     print_json(json_of(result));
   else if (line_.report_fd < 0)
     fmt::print("{}", summary(experiment, result));
-  std::fflush(stdout);
+  flush_standard_output();
 }
 
 }  // namespace mixloop

@@ -221,6 +221,7 @@ void fields(const Way& f, R& result) {
   f("session", result.session);
   f("missing_ticks", result.missing_ticks);
   f("log", result.log);
+  f("files", result.files);
   f("warnings", result.warnings);
   f("error", result.error);
 }
@@ -240,6 +241,7 @@ nlohmann::json json_of(const Result& result) {
     f("verdict", result.judged.verdict);
     f("exit_status", result.judged.exit_status);
     f("log", result.log);
+    f("files", result.files);
     f("warnings", result.warnings);
   }
   return out;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "notation/number_text.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -29,9 +31,10 @@ std::string endings(const Experiment& experiment, const Result& result) {
 
 std::string position_error(const Measures& measures) {
   if (std::isnan(measures.max_position_error)) return "never measured: no tick of the path was judged";
-  return fmt::format("max {:.7f} mm at {:.6g} s, final {:.7f} mm, rms {:.7f} mm",
-                     measures.max_position_error * 1e3, measures.time_of_max_position_error,
-                     measures.final_position_error * 1e3, measures.rms_position_error * 1e3);
+  const auto mm = [](double error) { return fixed(error * 1e3, 7) + " mm"; };
+  return fmt::format("max {} at {:.6g} s, final {}, rms {}", mm(measures.max_position_error),
+                     measures.time_of_max_position_error, mm(measures.final_position_error),
+                     mm(measures.rms_position_error));
 }
 
 bool all_linear(const RunFigures& run) {
@@ -47,7 +50,7 @@ std::string max_torque(const RunFigures& run) {
   for (std::size_t i = 0; i < run.torque_units.size(); ++i) {
     const bool last_of_unit =
         i + 1 == run.torque_units.size() || run.torque_units[i + 1] != run.torque_units[i];
-    text += fmt::format("{}{:.5f}{}", i > 0 ? " " : "", torque[static_cast<Eigen::Index>(i)],
+    text += fmt::format("{}{}{}", i > 0 ? " " : "", fixed(torque[static_cast<Eigen::Index>(i)], 5),
                         last_of_unit ? " " + run.torque_units[i] : "");
   }
   return text;

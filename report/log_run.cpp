@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "mixloop/fault_t.hpp"
 #include "notation/errors.hpp"
 #include "notation/long_work.hpp"
 #include "runtime/bus/log_reader.hpp"
@@ -56,6 +57,7 @@ class SessionReader {
   }
 
   void add(std::string_view kind, const LogEvent& event) {
+    if (kind == "FAULT") take_fault(event);
     if (kind == "STOP" || kind == "SIM_CONTROL" || kind == "FAULT") return;
     const auto header = peek(event.data);
     if (!header || !sound(*header)) {
@@ -87,6 +89,23 @@ class SessionReader {
       facts.timing.push_back(timing);
     else
       ++facts.dropped;
+  }
+
+  // Each is sent some times over, with the same number.
+  void take_fault(const LogEvent& event) {
+    fault_t m;
+    if (!decode(event.data, m) || m.session != session_.session || m.seq <= last_fault_) return;
+    if (m.target < fault_t::TARGET_MOTOR || m.target > fault_t::TARGET_FRICTION) return;
+    if (m.kind < fault_t::KIND_NONE || m.kind > fault_t::KIND_CHANGED) return;
+    last_fault_ = m.seq;
+    const double at = std::max(1e-6 * static_cast<double>(m.utime), static_cast<double>(next_) / rate_hz_);
+    facts.faults.push_back({next_,
+                            {.target = static_cast<Fault::Target>(m.target),
+                             .kind = static_cast<Fault::Kind>(m.kind),
+                             .index = m.index,
+                             .magnitude = m.magnitude,
+                             .at = at,
+                             .duration = m.duration}});
   }
 
   void tell_up_to(const HeardTick& heard) {
@@ -165,6 +184,7 @@ class SessionReader {
   std::int64_t next_;  ///< the tick to tell
   std::vector<double> last_tau_, last_psi_;
   double work_ = 0;
+  std::int64_t last_fault_ = -1;
 };
 
 std::string_view kind_of(const LogEvent& event, const std::string& prefix) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mixloop/timing_t.hpp"
+#include "plant/faults.hpp"
 #include "report/tick.hpp"
 
 namespace mixloop {
@@ -28,6 +29,8 @@ struct LogFacts {
   std::int64_t dropped = 0;  ///< messages that can't be read
   bool has_truth = false, is_real_time = false, reached_safe_state = false;
   std::vector<timing_t> timing;
+  std::vector<std::pair<std::int64_t, Fault>>
+      faults;          ///< that an operator ordered, by the tick last heard then
   std::string damage;  ///< of the file, for a person; empty where there is none
 };
 

@@ -59,6 +59,25 @@ ordered_json log_json(const LogFacts& facts, double rate_hz) {
           {"timing", rows}};
 }
 
+// Those of the experiment and, by the log, those that an operator ordered.
+ordered_json faults_json(const ReportedRun& run) {
+  auto faults = ordered_json::array();
+  if (run.inputs.is_object() && run.inputs.contains("faults")) faults = run.inputs["faults"];
+  if (!run.facts || !run.scene) return faults;
+  for (const auto& [tick, fault] : run.facts->faults) {
+    faults.push_back({{"text", to_string(fault, *run.scene) + ", by message"}, {"at", fault.at}});
+    if (fault.duration > 0) faults.back()["until"] = fault.at + fault.duration;
+  }
+  return faults;
+}
+
+// It has more digits than a script's number holds.
+ordered_json with_session_as_text(ordered_json result) {
+  if (result.is_object() && result.contains("session") && result["session"].is_number_integer())
+    result["session"] = std::to_string(result["session"].get<std::int64_t>());
+  return result;
+}
+
 }  // namespace
 
 std::string with_data(const std::string& page, const ordered_json& data) {
@@ -87,9 +106,10 @@ ordered_json page_data(const std::vector<ReportedRun>& runs) {
                          {"error", error_json(run.curves.tracking_error())},
                          {"names", names_json(run)},
                          {"notes", run.notes},
-                         {"result", run.result},
+                         {"result", with_session_as_text(run.result)},
                          {"inputs", run.inputs},
                          {"log", run.facts ? log_json(*run.facts, run.rate_hz) : ordered_json()},
+                         {"faults", faults_json(run)},
                          {"curves", ordered_json::object()}};
     for (const auto& curve : run.curves.all()) {
       if (curve.envelope.empty()) continue;

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "dynamics/scene/load_scene.hpp"
 #include "loop/arrivals_file.hpp"
 #include "loop/inputs.hpp"
+#include "notation/sha256.hpp"
+#include "report/kept_files.hpp"
 #include "report/mechanism.hpp"
 #include "report/trajectory_reader.hpp"
 
@@ -65,9 +68,8 @@ Known known_of(const std::filesystem::path& folder, const ReadOptions& options) 
   return {};
 }
 
-LogSession chosen_session(const std::filesystem::path& log, const ReadOptions& options, std::int64_t wanted,
-                          std::vector<std::string>& notes) {
-  const auto sessions = sessions_in(log, options.prefix);
+LogSession chosen_session(const std::filesystem::path& log, const std::vector<LogSession>& sessions,
+                          std::int64_t wanted, std::vector<std::string>& notes) {
   const auto at = std::find_if(sessions.begin(), sessions.end(),
                                [&](const LogSession& s) { return wanted == 0 || s.session == wanted; });
   if (at == sessions.end()) {
@@ -81,6 +83,14 @@ LogSession chosen_session(const std::filesystem::path& log, const ReadOptions& o
     notes.push_back(fmt::format("The log has {} sessions; this is {}. Another: --session ID.",
                                 sessions.size(), at->session));
   return *at;
+}
+
+/// As foreign_file; where the result doesn't tell, by the scene that it was of.
+std::string foreign_inputs(const ordered_json& result, const std::filesystem::path& file,
+                           const Scene& scene) {
+  if (result.contains("files")) return foreign_file(result, file);
+  if (!result.contains("scene_sha256") || result["scene_sha256"] == sha256_hex(scene.canonical)) return "";
+  return "inputs.json has another scene than result.json beside it: it is of another run.";
 }
 
 void add_notes(const LogFacts& facts, std::vector<std::string>& notes) {
@@ -106,8 +116,21 @@ void add_what_went_wrong(const nlohmann::json& result, std::vector<std::string>&
   if (!dropped.empty()) notes.push_back("The plant dropped messages: " + dropped + ".");
 }
 
+/// The log beside a result, where it is of the same run.
+void take_log(RunFile& run, const std::filesystem::path& log, const ReadOptions& options) {
+  const auto sessions = sessions_in(log, options.prefix);
+  std::set<std::int64_t> ids;
+  for (const auto& session : sessions) ids.insert(session.session);
+  if (const std::string why = foreign_log(run.result, log, ids); !why.empty()) {
+    run.notes.push_back(why + " It is left out.");
+    return;
+  }
+  run.log = log;
+  run.session = chosen_session(log, sessions, run.result.value("session", options.session), run.notes);
+}
+
 /// What is known before the ticks: of a folder, then of a log.
-RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& options, Known known) {
+RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& options, Known& known) {
   RunFile run{.label = folder.filename().string(),
               .source = folder.string(),
               .trajectory = folder / "trajectory.csv"};
@@ -115,9 +138,21 @@ RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& op
   run.result = read_json(folder / "result.json");
   run.label = run.result.value("experiment", run.label);
   run.rate_hz = run.result.value("rate", known.rate_hz > 0 ? known.rate_hz : 1000.0);
-  if (const auto log = folder / "run.lcmlog"; is_there(log)) {
-    run.log = log;
-    run.session = chosen_session(log, options, run.result.value("session", options.session), run.notes);
+  if (!options.experiment && known.scene)
+    if (const std::string why = foreign_inputs(run.result, folder / "inputs.json", *known.scene);
+        !why.empty()) {
+      run.notes.push_back(why + " It is left out.");
+      known = {};
+    }
+  if (const std::string why = foreign_file(run.result, run.trajectory); !why.empty())
+    run.notes.push_back(why);
+  if (const auto log = folder / "run.lcmlog"; is_there(log)) take_log(run, log, options);
+  if (const auto ages = folder / "ages.csv"; is_there(ages)) {
+    const std::string why = foreign_file(run.result, ages);
+    if (why.empty())
+      run.ages = ages;
+    else
+      run.notes.push_back(why + " It is left out.");
   }
   if (!known.scene) run.notes.push_back("No inputs.json: dependent coordinates are not shown.");
   add_what_went_wrong(run.result, run.notes);
@@ -126,7 +161,8 @@ RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& op
 
 RunFile opened_log(const std::filesystem::path& log, const ReadOptions& options, const Known& known) {
   RunFile run{.label = log.stem().string(), .source = log.string(), .from_log = true, .log = log};
-  run.session = chosen_session(log, options, options.session, run.notes);
+  const auto sessions = sessions_in(log, options.prefix);
+  run.session = chosen_session(log, sessions, options.session, run.notes);
   run.sizes.n = static_cast<std::size_t>(run.session->n);
   const auto commanded = static_cast<std::size_t>(run.session->n_u);
   run.sizes.n_u = known.scene                                 ? known.scene->motors().size()
@@ -162,9 +198,9 @@ std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism,
     });
     add_notes(*facts, run.notes);
   }
-  if (const auto arrivals = run.trajectory.parent_path() / "ages.csv"; is_there(arrivals)) {
+  if (!run.ages.empty()) {
     ages.clear();
-    take_arrivals(arrivals, run.rate_hz, ages);
+    take_arrivals(run.ages, run.rate_hz, ages);
     run.notes.push_back("The ages of commands are the plant's own (ages.csv).");
   }
   TrajectoryReader(run.trajectory).read(run.sizes.m, [&](Tick& tick) {
@@ -205,7 +241,7 @@ RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) 
                      "no result.json with a trajectory.csv and no run.lcmlog in it; expected a folder that "
                      "`mixloop simulate` or `run` kept by --out");
   const std::filesystem::path log = is_folder ? path / "run.lcmlog" : path;
-  const Known known = known_of(log.parent_path(), options);
+  Known known = known_of(log.parent_path(), options);
   RunFile run = is_result ? opened_folder(path, options, known) : opened_log(log, options, known);
   run.prefix = options.prefix;
   run.inputs = known.inputs;

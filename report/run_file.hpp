@@ -25,7 +25,7 @@ struct ReadOptions {
 struct RunFile {
   std::string label, source;
   bool from_log = false;  ///< its ticks come from a log, not from the plant's memory
-  std::filesystem::path trajectory, log;
+  std::filesystem::path trajectory, log, ages;
   std::optional<LogSession> session;
   std::string prefix;
   nlohmann::ordered_json result, inputs;  ///< as kept; null where there is none
@@ -38,7 +38,8 @@ struct RunFile {
 };
 
 /// Opens a folder that --out kept (result.json, trajectory.csv, and of run.lcmlog the ages of commands), or a
-/// log of ours or of lcm-logger. Throws InputError for what is neither.
+/// log of ours or of lcm-logger. What lies in the folder and is of another run is left out, and noted. Throws
+/// InputError for what is neither.
 RunFile open_run(const std::filesystem::path& path, const ReadOptions& options);
 
 /// Calls `on_tick` for every tick, completed by the scene where one is known. What a log lacks is added to

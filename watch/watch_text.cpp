@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "notation/number_text.hpp"
 
 namespace mixloop {
 namespace {
@@ -24,9 +27,7 @@ std::string duration_text_ns(std::int64_t ns) { return duration_text(nanoseconds
 /// Of TIMING, which says 0 for none.
 std::string quantile_text(std::int64_t ns) { return ns == 0 ? "-" : duration_text_ns(ns); }
 
-std::string number_text(bool known, double value, int digits) {
-  return known ? fmt::format("{:.{}f}", value, digits) : "-";
-}
+std::string number_text(bool known, double value, int digits) { return known ? fixed(value, digits) : "-"; }
 
 Piece count_piece(std::uint64_t count, int width) {
   return {fmt::format("{:>{}}", count, width), count > 0 ? Style::warning : Style::plain};
@@ -35,8 +36,7 @@ Piece count_piece(std::uint64_t count, int width) {
 Line title(const WatchView& view) {
   return {{"mixloop", Style::heading},
           {view.session == 0 ? std::string()
-                             : fmt::format("  session {:016x}  tick {}  {:.3f} s  {}",
-                                           static_cast<std::uint64_t>(view.session), view.tick,
+                             : fmt::format("  session {}  tick {}  {:.3f} s  {}", view.session, view.tick,
                                            view.plant_time, view.real_time ? "real time" : "lockstep")}};
 }
 
@@ -75,7 +75,7 @@ Line status(const WatchView& view) {
   return line;
 }
 
-void add_channels(std::vector<Line>& lines, const WatchView& view) {
+void add_channels(std::vector<Line>& lines, const WatchView& view, bool whole) {
   lines.push_back({{fmt::format("{:<24} {:>9} {:>9} {:>11} {:>7} {:>8} {:>6}", "channel", "rate, Hz", "age",
                                 "messages", "lost", "repeated", "bad"),
                     Style::heading}});
@@ -85,11 +85,12 @@ void add_channels(std::vector<Line>& lines, const WatchView& view) {
       unheard += (unheard.empty() ? "" : " ") + channel.name;
       continue;
     }
-    lines.push_back({{fmt::format("{:<24.24} {:>9.1f} {:>9} {:>11} ", channel.name, channel.rate_hz,
-                                  duration_text(*channel.age), channel.received)},
-                     channel.lost ? count_piece(*channel.lost, 7) : Piece{"      -"},
-                     {fmt::format(" {:>8} ", channel.repeated)},
-                     count_piece(channel.bad, 6)});
+    lines.push_back(
+        {{fmt::format("{:<24} {:>9.1f} {:>9} {:>11} ", whole ? channel.name : channel.name.substr(0, 24),
+                      channel.rate_hz, duration_text(*channel.age), channel.received)},
+         channel.lost ? count_piece(*channel.lost, 7) : Piece{"      -"},
+         {fmt::format(" {:>8} ", channel.repeated)},
+         count_piece(channel.bad, 6)});
   }
   if (!unheard.empty()) lines.push_back({{"not heard: " + unheard, Style::quiet}});
 }
@@ -99,8 +100,8 @@ Line tracking(const WatchView& view) {
     return {{"position error  ", Style::heading},
             {"none yet: it needs the path, and TRUTH on the bus or an experiment", Style::quiet}};
   return {{"position error  ", Style::heading},
-          {fmt::format("now {:.4f}  worst {:.4f} mm at {:.3f} s, by the {}", 1e3 * view.position_error->now,
-                       1e3 * view.position_error->worst, view.worst_at, view.position_source)}};
+          {fmt::format("now {}  worst {} mm at {:.3f} s, by the {}", fixed(1e3 * view.position_error->now, 4),
+                       fixed(1e3 * view.position_error->worst, 4), view.worst_at, view.position_source)}};
 }
 
 // From -limit to limit, zero in the middle; past the limit it ends in an arrow.
@@ -207,9 +208,11 @@ std::string to_text(const Line& line) {
   return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
-std::vector<Line> watch_lines(const WatchView& view, std::size_t width, std::size_t height) {
+namespace {
+
+std::vector<Line> laid_out(const WatchView& view, std::size_t width, std::size_t height, bool whole) {
   std::vector<Line> lines = {title(view), status(view)};
-  add_channels(lines, view);
+  add_channels(lines, view, whole);
   const std::vector<Line> below = timing_lines(view);
   // Blank lines are the first to go, then motors, then the last lines.
   const std::size_t needed =
@@ -221,8 +224,19 @@ std::vector<Line> watch_lines(const WatchView& view, std::size_t width, std::siz
   add_motors(lines, view, width, height > taken ? height - taken : 0);
   if (airy) lines.emplace_back();
   lines.insert(lines.end(), below.begin(), below.end());
+  return lines;
+}
+
+}  // namespace
+
+std::vector<Line> watch_lines(const WatchView& view, std::size_t width, std::size_t height) {
+  std::vector<Line> lines = laid_out(view, width, height, false);
   cut(lines, width, height);
   return lines;
+}
+
+std::vector<Line> whole_watch_lines(const WatchView& view) {
+  return laid_out(view, 80, std::numeric_limits<std::size_t>::max() / 2, true);
 }
 
 }  // namespace mixloop

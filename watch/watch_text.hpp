@@ -26,6 +26,8 @@ std::string ending_text(const WatchView& view);
 /// 24 lines for three motors; where there is less room, the motors that don't fit are counted, then lines are
 /// cut.
 std::vector<Line> watch_lines(const WatchView& view, std::size_t width, std::size_t height);
+/// The same for a reader that has no width: all of it, nothing cut.
+std::vector<Line> whole_watch_lines(const WatchView& view);
 
 /// The same in SI units, for scripts.
 nlohmann::json watch_json(const WatchView& view);

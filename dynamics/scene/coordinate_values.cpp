@@ -18,8 +18,9 @@ std::vector<double> read_values(const NodePtr& node, std::span<const Scene::Inde
   const auto items = items_of(node, what);
   if (items.size() != coordinates.size())
     throw InputError("wrong_size", node->place,
-                     fmt::format("{} has {} values; expected one for each of the {} {}s", what, items.size(),
-                                 coordinates.size(), noun_for(coordinates)));
+                     fmt::format("{} has {} values; expected one for each of the {} {}s{}", what,
+                                 items.size(), coordinates.size(), noun_for(coordinates),
+                                 decimal_commas(items.size(), coordinates.size())));
   std::vector<double> values;
   for (std::size_t i = 0; i < items.size(); ++i)
     values.push_back(number_of(*items[i], quantity.of(coordinates[i]), what));

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/bus/log_writer.hpp"
 
+#include <fmt/format.h>
 #include <lcm/eventlog.h>
 #include <lcm/lcm.h>
 #include <poll.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <cstdio>
+#include <cstring>
 #include <thread>
 
 #include "notation/errors.hpp"
@@ -16,11 +20,12 @@ namespace mixloop {
 struct LogWriter::Recording {
   lcm_t* lcm = nullptr;
   lcm_eventlog_t* log = nullptr;
-  std::string state_channel;
+  std::string file, state_channel;
   std::atomic<bool> over{false};
   LogSummary summary;
   std::int64_t latest_tick = -1;
   std::int64_t session = 0;
+  int failed = 0;  ///< the errno of the first event that could not be written
   std::thread thread;
 
   ~Recording() {
@@ -42,7 +47,7 @@ struct LogWriter::Recording {
     event.channel = const_cast<char*>(channel);
     event.datalen = static_cast<int32_t>(received.data_size);
     event.data = received.data;
-    lcm_eventlog_write_event(log, &event);
+    if (!failed && lcm_eventlog_write_event(log, &event) != 0) failed = errno;
     if (state_channel == channel)
       count_gap({static_cast<const std::uint8_t*>(received.data), received.data_size});
   }
@@ -73,6 +78,7 @@ struct LogWriter::Recording {
 LogWriter::LogWriter(const BusOptions& bus, const std::filesystem::path& file)
     : recording_(std::make_unique<Recording>()) {
   Recording& recording = *recording_;
+  recording.file = file.string();
   recording.state_channel = bus.prefix + "STATE";
   recording.log = lcm_eventlog_create(file.c_str(), "w");
   if (!recording.log) throw RunFault("cannot_write", "cannot write the log " + file.string());
@@ -90,8 +96,12 @@ LogSummary LogWriter::finish() {
   Recording& recording = *recording_;
   recording.over = true;
   if (recording.thread.joinable()) recording.thread.join();
+  if (recording.log && !recording.failed && std::fflush(recording.log->f) != 0) recording.failed = errno;
   if (recording.log) lcm_eventlog_destroy(recording.log);
   recording.log = nullptr;
+  if (recording.failed)
+    throw RunFault("cannot_write",
+                   fmt::format("cannot write {}: {}", recording.file, std::strerror(recording.failed)));
   return recording.summary;
 }
 

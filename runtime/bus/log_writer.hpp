@@ -25,7 +25,8 @@ class LogWriter {
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  /// Drains what has arrived and closes the file.
+  /// Drains what has arrived and closes the file. Throws RunFault("cannot_write") where not all of it is
+  /// written.
   LogSummary finish();
 
  private:

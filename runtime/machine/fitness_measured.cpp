@@ -22,6 +22,7 @@ constexpr auto kLook = 50ms;  // how often it is looked whether somebody asked f
 double us(nanoseconds time) { return std::chrono::duration<double, std::micro>(time).count(); }
 
 std::string quantiles(const Histogram& times) {
+  if (times.count() == 0) return "never measured";
   return fmt::format("p50 {:.0f} us, p99 {:.0f} us, max {:.0f} us", us(times.quantile(0.5)),
                      us(times.quantile(0.99)), us(times.max()));
 }

@@ -57,6 +57,16 @@ TEST(DynamicsCommand, TakesEachMotorsOwnUnitAndNoOther) {
     EXPECT_EQ(with(option, values), "wrong_dimension") << option << ' ' << values;
 }
 
+TEST(DynamicsCommand, KeepsEachParametersUnit) {
+  for (const char* command : {"dynamics", "explain", "compile"}) {
+    Command refused({bin("mixloop"), command, robot(), "--set", "parameters.payload=3 m", "--json"});
+    EXPECT_EQ(refused.wait(), 2) << command;
+    EXPECT_EQ(refused.json()["error"]["where"], "--set parameters.payload:1:1") << command;
+    EXPECT_EQ(refused.json()["error"]["message"],
+              "the parameter 'payload' is a length (m); expected a mass (kg)");
+  }
+}
+
 TEST(DynamicsCommand, RefusesAStateOfTheWrongSize) {
   Command command({bin("mixloop"), "dynamics", robot(), "--psi", "1,2", "--json"});
   ASSERT_EQ(command.wait(), 2);

@@ -39,6 +39,27 @@ TEST(Replay, FindsTheFirstCommandOfAnotherLaw) {
   EXPECT_GE(replay.json()["first_difference"], 0);
   auto stranger = replayed(folder.file("kept/run.lcmlog"), {"--set", "path.duration=2 s"});
   EXPECT_EQ(stranger.wait(), 2) << "another experiment's log";
+  EXPECT_THAT(stranger.json()["error"]["message"].get<std::string>(),
+              testing::HasSubstr("another experiment: its path"));
+}
+
+/// An event as LCM logs it.
+std::string logged_as(const std::string& channel, const std::string& data) {
+  std::string text = "\xED\xA1\xDA\x01" + std::string(16, '\0');
+  for (const std::size_t size : {channel.size(), data.size()})
+    text += std::string(3, '\0') + static_cast<char>(size);
+  return text + channel + data;
+}
+
+TEST(Replay, SaysWhyALogHasNoCommandForIt) {
+  const ScratchFolder folder;
+  for (const auto& [channel, message] : {std::pair{"MIXLOOP_COMMAND", "another type than mixloop.command_t"},
+                                         {"SOMEBODYS_COMMAND", "no message on MIXLOOP_COMMAND"}}) {
+    auto replay = replayed(folder.write(channel, logged_as(channel, std::string(60, 'x'))));
+    EXPECT_EQ(replay.wait(), 2);
+    EXPECT_EQ(replay.json()["error"]["code"], "no_commands");
+    EXPECT_THAT(replay.json()["error"]["message"].get<std::string>(), testing::HasSubstr(message));
+  }
 }
 
 }  // namespace

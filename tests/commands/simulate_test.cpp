@@ -214,6 +214,11 @@ TEST(Simulate, RefusesBadInputAndWritesNothing) {
                  "rate=10 Hz"},
                 "out_of_reach",
                 "no integrator keeps"},
+        BadLine{{experiment("paper"), "--set", "path.repeat=1000000", "--set", "path.duration=100 s"},
+                "too_large",
+                "GB of memory"},
+        BadLine{{experiment("paper"), "--evaluation", "fast"}, "command_line", "reference"},
+        BadLine{{experiment("paper"), "--jsom"}, "command_line", "did you mean '--json'?"},
         BadLine{{experiment("paper"), "--set", "nonsense"}, "invalid_override", "key=value"},
         BadLine{{experiment("paper"), "--sett", "x=1"}, "command_line", "--sett"}}) {
     SCOPED_TRACE(words.back());

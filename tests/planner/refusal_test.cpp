@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/plan.hpp"
+#include "planner/refusal.hpp"
 #include "tests/planner/mechanisms.hpp"
 #include "tests/support/bad_input.hpp"
 
@@ -47,6 +48,23 @@ TEST(Refusal, OfAPathOutOfReachKnowsNoArm) {
                  {"0.5 s into the path", "0.5 of the line", "1 m from the nearest"});
   expect_refusal(model_from(kPlanarArm), line("[3, 0]", "[1, 0]"), {}, "unreachable",
                  {"the path's start", "1 m from the nearest"});
+}
+
+// Where all of the line can be reached, the follower's failure is no matter of reach.
+TEST(Refusal, OfAWayThatTheMotorsDontKnowToWhatCanBeReachedIsOfASingularity) {
+  const auto model = model_from(kPlanarArm);
+  const Path path = path_from(line("[1, 0]", "[1.2, 0.3]"), model);
+  const Itinerary itinerary(path, 1000, 1);
+  InverseKinematics ik(model);
+  SingularityMeasures measures(model, ik.motor_scale());
+  const Refusal refusal(path, itinerary, ik, measures);
+  Follower follower(ik, itinerary, 0);
+  ASSERT_EQ(follower.start([](const Vector&) { return true; }), IkOutcome::solved);
+  measures.adopt_scale(follower.now().motors.psi, 0);
+  const auto error = input_error([&] { refusal.no_way(follower, 5); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code, "singular_path");
+  EXPECT_NE(error->message.find("singularity 'stretched'"), std::string::npos) << error->message;
 }
 
 TEST(Refusal, OfAPathOverTheBaseAxis) {

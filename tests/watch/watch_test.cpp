@@ -339,6 +339,15 @@ TEST(WatchText, StaysWithinAnySize) {
   EXPECT_THAT(text_of(busy(40), 80, 100), AllOf(HasSubstr("\n40 "), Not(HasSubstr("more: a taller"))));
 }
 
+TEST(WatchText, IsWholeWhereThereIsNoWidth) {
+  WatchView view = busy(3);
+  view.warnings = {std::string(200, 'w')};
+  view.channels[0].name = std::string(40, 'c');
+  std::string text;
+  for (const Line& line : whole_watch_lines(view)) text += to_text(line) + '\n';
+  EXPECT_THAT(text, AllOf(HasSubstr(std::string(200, 'w')), HasSubstr(std::string(40, 'c') + " ")));
+}
+
 TEST(WatchText, SaysThatNoTimingWasHeard) {
   Script script;
   script.state(0, {0, 0, 0});
