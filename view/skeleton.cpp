@@ -158,6 +158,7 @@ nlohmann::json Skeleton::description() const {
       {"motors", motors},
       {"closures", closures},
       {"solids", solids},
+      {"gravity", list(model_.gravity)},
       {"end_effector", {{"frame", scene_->end_effector.frame}, {"point", list(model_.end_effector_point)}}}};
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "tests/support/mixed_motors.hpp"
 #include "tests/web/look.hpp"
 
 namespace mixloop {
@@ -29,6 +30,26 @@ TEST_F(ReportPage, ShowsInABrowserWhatTheTrajectoryHolds) {
 TEST_F(ReportPage, PansALongRunOfFewPoints) {
   ASSERT_NO_FATAL_FAILURE(keep("simulate", {"--set", "path.duration=60 s", "--set", "expect={}"}));
   RecordProperty("rate", look("pan.mjs", {page}));
+}
+
+TEST_F(ReportPage, BeginsAComparisonWithWhatDiffers) {
+  folder.write("scene.yaml", kMixedMotorsScene);
+  const std::string mixed = folder.write("mixed.yaml", kMixedMotorsExperiment);
+  const std::string one = folder.file("one"), two = folder.file("two");
+  const std::vector<std::string> plain = {bin("mixloop"), "simulate", mixed, "--json", "--out"};
+  std::vector<std::string> words = plain;
+  words.push_back(one);
+  Command first(words);
+  ASSERT_EQ(first.wait(), 0) << first.out() << first.err();
+  words = plain;
+  words.insert(words.end(),
+               {two, "--set", "plant={integrator: leapfrog, torque_limit: [40 N, 20 N m]}", "--set",
+                "faults=[{at: 0.1 s, for: 0.05 s, motor: turn, kind: wrong, magnitude: 0.1 N m}]"});
+  Command second(words);
+  ASSERT_EQ(second.wait(), 0) << second.out() << second.err();
+  Command report({bin("mixloop"), "report", one, two, "--out", page = folder.file("both.html")});
+  ASSERT_EQ(report.wait(), 0) << report.err();
+  look("compare.mjs", {page});
 }
 
 TEST_F(ReportPage, ShowsWhatThePlantSaidOfItsTiming) {

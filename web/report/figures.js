@@ -1,5 +1,8 @@
 /** Which figures there are, from what the runs have. A figure of several runs has a colour a run. */
 
+import { errorLimits, motorLimits } from './limits.js';
+import { isThePapersRobot } from './words.js';
+
 const axes = ['x', 'y', 'z'];
 
 /** The lines of `curves` ([{ curve, name, scale, dash, colour }]) for every run that has them. */
@@ -28,10 +31,15 @@ function figures(runs, base, groups) {
     .filter((figure) => figure.lines.length > 0);
 }
 
-function ofPaper(runs, number, what, symbol, label) {
+/** Of the paper's robot the figures have its numbers. */
+function titleOf(runs, number, what) {
+  return runs.some(isThePapersRobot) ? `The paper's Figure ${number}: ${what}` : what[0].toUpperCase() + what.slice(1);
+}
+
+function ofHand(runs, number, what, symbol, label) {
   return figures(
     runs,
-    { title: `The paper's Figure ${number}: ${what} of the end effector E`, label },
+    { title: titleOf(runs, number, `${what} of the end effector E`), label },
     axes.map((axis, i) => ({
       title: axis,
       curves: [
@@ -43,13 +51,17 @@ function ofPaper(runs, number, what, symbol, label) {
 }
 
 /** One figure a unit: turning and sliding coordinates don't share an axis. */
-function ofCoordinates(runs, names, title, units, curves) {
+function ofCoordinates(runs, names, title, units, curves, limited) {
   return [false, true].flatMap((linear) => {
     const groups = names
       .map((name, i) => ({ ...name, i }))
       .filter((name) => name.linear === linear)
       .map(({ name, i }) => ({ title: name, curves: curves(name, i + 1, i) }));
-    return groups.length ? figures(runs, { title, label: units[linear ? 1 : 0] }, groups) : [];
+    if (groups.length === 0) return [];
+    const own = names.map(({ name }, i) => ({ name, i })).filter(({ i }) => names[i].linear === linear);
+    const limits = (named) => (limited ? motorLimits(runs, limited, named) : []);
+    // A figure of several runs is of one motor.
+    return figures(runs, { title, label: units[linear ? 1 : 0] }, groups).map((figure, k) => ({ ...figure, limits: limits(runs.length > 1 ? own.slice(k, k + 1) : own) }));
   });
 }
 
@@ -107,21 +119,21 @@ export function sections(runs) {
   return [
     {
       id: 'paper-figures',
-      title: "The paper's figures",
+      title: runs.some(isThePapersRobot) ? "The paper's figures" : 'Motion and torques',
       figures: [
-        ...ofPaper(runs, 2, 'displacement', '', 'Displacement (m)'),
-        ...ofPaper(runs, 3, 'velocity', 'v', 'Velocity (m/s)'),
-        ...ofPaper(runs, 4, 'acceleration', 'a', 'Acceleration (m/s²)'),
-        ...ofCoordinates(runs, motors, "The paper's Figure 5: driving torques", ['Torque (N m)', 'Force (N)'], (name, k, i) => [
+        ...ofHand(runs, 2, 'displacement', '', 'Displacement (m)'),
+        ...ofHand(runs, 3, 'velocity', 'v', 'Velocity (m/s)'),
+        ...ofHand(runs, 4, 'acceleration', 'a', 'Acceleration (m/s²)'),
+        ...ofCoordinates(runs, motors, titleOf(runs, 5, 'driving torques'), ['Torque (N m)', 'Force (N)'], (name, k, i) => [
           { curve: `tau_${k}`, name: `τ of ${name}`, colour: i },
-        ]),
+        ], 'tau'),
       ],
     },
     {
       id: 'error',
       title: 'Tracking error',
       figures: [
-        ...one('Position error over time', 'Error (mm)', [{ curve: 'error', name: '|error|', scale: 1e3, colour: 1 }]),
+        ...one('Position error over time', 'Error (mm)', [{ curve: 'error', name: '|error|', scale: 1e3, colour: 1 }], { limits: errorLimits(runs) }),
         ...each(
           'Position error in space',
           'Actual − desired (mm)',
@@ -146,10 +158,10 @@ export function sections(runs) {
         ...ofCoordinates(runs, motors, 'Motor coordinates', ['Angle (rad)', 'Displacement (m)'], (name, k, i) => [
           { curve: `psi_${k}`, name: `${name} actual`, colour: i },
           { curve: `psi_desired_${k}`, name: `${name} desired`, colour: i, dash: 1 },
-        ]),
+        ], 'psi'),
         ...ofCoordinates(runs, motors, 'Motor rates', ['Rate (rad/s)', 'Rate (m/s)'], (name, k, i) => [
           { curve: `psid_${k}`, name: `${name}′`, colour: i },
-        ]),
+        ], 'psid'),
         ...ofCoordinates(runs, coordinates, 'Dependent coordinates', ['Angle (rad)', 'Displacement (m)'], (name, k, i) => [
           { curve: `q_${k}`, name, colour: i, dash: i > 2 ? 1 : 0 },
         ]),
@@ -162,6 +174,7 @@ export function sections(runs) {
             { curve: `tau_applied_${k}`, name: `${name} applied`, colour: i },
             { curve: `tau_${k}`, name: `${name} commanded`, colour: i, dash: 1 },
           ],
+          'tau',
         ),
       ],
     },

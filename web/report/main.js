@@ -4,6 +4,7 @@ import './report.css';
 import { h, shown } from '../shared/dom.js';
 import { readRuns } from '../shared/runs.js';
 import { onThemeChange, themeButton } from '../shared/theme.js';
+import { differences } from './comparison.js';
 import { sections } from './figures.js';
 import { Extent, Plot } from './plot.js';
 import { Projection } from './projection.js';
@@ -67,7 +68,7 @@ async function start(data) {
 
   const { time, path_length } = extents(runs);
   const plots = [];
-  content.append(section('summary', 'Summary', words.summaryTable(runs), words.boundsTable(runs)));
+  content.append(section('summary', 'Summary', differences(runs), words.summaryTable(runs), words.boundsTable(runs)));
   const papers = runs.find(words.isThePapers);
   if (papers) content.append(words.paperTable(papers));
   for (const { id, title: name, figures } of sections(runs)) {

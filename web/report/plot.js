@@ -2,6 +2,7 @@ import uPlot from 'uplot';
 import { h, shown } from '../shared/dom.js';
 import { paintLegend } from '../shared/legend.js';
 import { cssColour, dashes, palettes, theme } from '../shared/theme.js';
+import { limitsNote, withLimits } from './limits.js';
 
 export const kMostPoints = 3000; // a curve, drawn at once: more than a screen has columns
 const kPerPixel = 3; // points at most, the least and the greatest of a bit less than a column
@@ -84,11 +85,16 @@ export class Plot {
     this.element = h(
       'figure',
       {},
-      h('figcaption', {}, h('h3', {}, spec.title), spec.note ? h('p', {}, spec.note) : null),
+      h('figcaption', {}, h('h3', {}, spec.title), spec.note ? h('p', {}, spec.note) : null, this.limitsNote()),
       this.box,
     );
     this.box.addEventListener('keydown', (event) => this.key(event));
     this.box.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
+  }
+
+  limitsNote() {
+    const note = limitsNote(this.spec.limits ?? []);
+    return note ? h('p', { class: 'limits' }, note) : null;
   }
 
   options() {
@@ -98,7 +104,7 @@ export class Plot {
       height: this.height,
       scales: {
         x: { time: false, auto: false, range: () => [extent.min, extent.max] },
-        y: spec.logarithmic ? { distr: 3 } : {},
+        y: spec.logarithmic ? { distr: 3 } : spec.limits?.length ? { range: (_, least, most) => withLimits(uPlot.rangeNum(least, most, 0.1, true), spec.limits) } : {},
       },
       axes: [axis(`${extent.name} (${extent.unit})`, { size: 34 }), axis(spec.label, { size: 66 })],
       legend: { live: true },
@@ -114,6 +120,7 @@ export class Plot {
         points: { size: 7 },
       },
       hooks: {
+        draw: [(u) => this.drawLimits(u)],
         setSelect: [
           (u) => {
             if (u.select.width < 3) return;
@@ -135,6 +142,24 @@ export class Plot {
         })),
       ],
     };
+  }
+
+  /** A dashed line across for each limit that the scale of y reaches. */
+  drawLimits(u) {
+    const { ctx, bbox } = u;
+    ctx.save();
+    for (const { value, colour } of this.spec.limits ?? []) {
+      if (!(value >= u.scales.y.min && value <= u.scales.y.max)) continue;
+      const y = Math.round(u.valToPos(value, 'y', true)) + 0.5;
+      ctx.strokeStyle = palettes[theme()][colour % 8];
+      ctx.lineWidth = uPlot.pxRatio;
+      ctx.setLineDash([8 * uPlot.pxRatio, 5 * uPlot.pxRatio]);
+      ctx.beginPath();
+      ctx.moveTo(bbox.left, y);
+      ctx.lineTo(bbox.left + bbox.width, y);
+      ctx.stroke();
+    }
+    ctx.restore();
   }
 
   /** Draws it; the element is in the document now. */

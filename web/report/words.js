@@ -58,7 +58,12 @@ export function summaryTable(runs) {
     ['Root mean square error', error('rms_position_error', 'rms')],
     ['Largest torques', (run) => torques(run)],
     ['Diverged at', result('diverged_at', (t) => `${shown(t)} s`)],
+    ['Safe state from', result('safe_at', (t) => `${shown(t)} s`)],
+    ['… because', result('safe_cause', String)],
     ['Interrupted at', result('interrupted_at', (t) => `${shown(t)} s`)],
+    ['Ended by', (run) => (run.result?.error ? `${run.result.error.message} (${run.result.error.code})` : null)],
+    ['What was missed', (run) => (run.result?.missed?.length ? run.result.missed.join('; ') : null)],
+    ['Faults in the plant', (run) => (run.faults?.length ? h('ul', { class: 'faults' }, run.faults.map(({ text, at }) => h('li', {}, text, at > run.end ? ' (after its end)' : null))) : null)],
     ['Ticks', (run) => `${run.ticks - 1} at ${shown(run.rate)} Hz`],
     ['Route', (run) => run.result?.route ?? 'log'],
     ['Missed deadlines', result('missed_deadlines', String)],
@@ -102,9 +107,11 @@ export function boundsTable(runs) {
 
 const near = (a, b) => Math.abs(a - b) < 1e-6;
 
+export const isThePapersRobot = (run) => run.inputs?.scene?.name === 'mixed-loop robot';
+
 /** Whether a run is the paper's experiment: its robot, line, duration and load. */
 export function isThePapers(run) {
-  if (run.inputs?.scene?.name !== 'mixed-loop robot' || run.ticks < 2) return false;
+  if (!isThePapersRobot(run) || run.ticks < 2) return false;
   const ends = [[0.3, 0, 0.8], [-0.3, 0.4, 0.3]];
   const onLine = ['x', 'y', 'z'].every((axis, i) => {
     if (!run.has(`position_${axis}_desired`)) return false;

@@ -24,7 +24,9 @@ export class Drawing {
     const sphere = this.box.getBoundingSphere(new THREE.Sphere());
     sphere.radius = Math.max(sphere.radius, 1e-3);
     this.reach = 1.4 * sphere.radius;
-    this.eye = new Eye(canvas, sphere, () => (this.changed = true));
+    const [x, y, z] = mechanism.gravity ?? [0, 0, 0];
+    this.up = x || y || z ? new THREE.Vector3(-x, -y, -z).normalize() : new THREE.Vector3(0, 0, 1);
+    this.eye = new Eye(canvas, sphere, this.up, () => (this.changed = true));
     this.camera = this.eye.camera;
     this.materials = {};
     this.tags = [];
@@ -64,14 +66,14 @@ export class Drawing {
     const { space, reach } = this;
     space.add(new THREE.HemisphereLight(0xffffff, 0x888888, 2.2));
     const sun = new THREE.DirectionalLight(0xffffff, 1.6);
-    sun.position.set(2, -3, 4);
+    sun.position.set(2, -3, 4).applyQuaternion(this.eye.upright);
     space.add(sun);
     this.cell = niceStep(reach / 6);
     const { min, max } = this.box;
-    const far = Math.max(...[min.x, max.x, min.y, max.y].map(Math.abs)) + 0.5 * reach;
+    const far = Math.max(...[min, max].flatMap((corner) => corner.toArray()).map(Math.abs)) + 0.5 * reach;
     const cells = 2 * Math.ceil(far / this.cell);
     this.grid = new THREE.GridHelper(cells * this.cell, cells);
-    this.grid.rotation.x = Math.PI / 2;
+    this.grid.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), this.up);
     space.add(this.grid);
     this.buildAxes();
   }
@@ -203,8 +205,16 @@ export class Drawing {
       const { parent } = this.mechanism.frames[Math.max(0, torque.joint)];
       torque.show(pose.tau[i], frames[Math.max(0, parent)]);
     });
+    if (this.eye.keep([...frames.map(({ at }) => at), this.hand.position])) this.moveGrid();
     this.trail.show(pose.t);
     this.changed = true;
+  }
+
+  /** Under what is looked at, by whole squares. */
+  moveGrid() {
+    const at = this.eye.all.center.clone().applyQuaternion(this.grid.quaternion.clone().invert());
+    const whole = (x) => Math.round(x / this.cell) * this.cell;
+    this.grid.position.set(whole(at.x), 0, whole(at.z)).applyQuaternion(this.grid.quaternion);
   }
 
   /** The largest torque of each motor, that the arcs are drawn by. */
