@@ -43,7 +43,7 @@ TEST_F(ReportPage, BeginsAComparisonWithWhatDiffers) {
   ASSERT_EQ(first.wait(), 0) << first.out() << first.err();
   words = plain;
   words.insert(words.end(),
-               {two, "--set", "plant={integrator: leapfrog, torque_limit: [40 N, 20 N m]}", "--set",
+               {two, "--set", "plant={integrator: leapfrog, torque_limit: [20 N, 20 N m]}", "--set",
                 "faults=[{at: 0.1 s, for: 0.05 s, motor: turn, kind: wrong, magnitude: 0.1 N m}]"});
   Command second(words);
   ASSERT_EQ(second.wait(), 0) << second.out() << second.err();

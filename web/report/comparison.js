@@ -13,7 +13,7 @@ function leaves(value, path = '') {
 function made(run) {
   const { inputs, result } = run;
   return new Map([
-    ...(inputs ? leaves(inputs.experiment) : []),
+    ...(inputs ? leaves(inputs.experiment).filter(([name]) => !name.startsWith('faults[')) : []), // in words below
     ...(inputs ? leaves(inputs.scene, 'scene') : []),
     ...Object.entries(inputs?.plant_parameters ?? {}).map(([name, value]) => [`the plant's ${name}`, shown(value)]),
     ...(run.faults ?? []).map(({ text }, i) => [`fault ${i + 1}`, text]),

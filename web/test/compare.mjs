@@ -29,9 +29,9 @@ await opened(executable, async (browser, tab) => {
   // Limits are said, and drawn where the curves come near.
   const limited = await tab.evaluate(() => window.mixloop.plots.filter(({ spec }) => spec.limits?.length).map(({ spec, plot }) => ({ title: spec.title, limits: spec.limits, max: plot.scales.y.max })));
   const force = limited.find(({ title }) => title.includes('torques') && title.includes('slide'));
-  assert.ok(force.limits.some(({ value }) => value === 40), JSON.stringify(force));
-  assert.ok(force.max >= 40, 'the limit is in the picture');
-  assert.match(text, /slide, the plant’s limit: ±40/);
+  assert.ok(force.limits.some(({ value }) => value === 20), JSON.stringify(force));
+  assert.ok(force.max >= 20, 'the limit is in the picture');
+  assert.match(text, /slide, the plant’s limit: ±20/);
   assert.match(text, /past it a run has diverged: 100/);
 });
 console.log('held');
