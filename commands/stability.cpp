@@ -147,9 +147,9 @@ void print(const nlohmann::json& one) {
   const auto& start = one.at("at_start");
   const auto& path = one.at("along_path");
   fmt::print("  {:<44}{:>14}{:>14}  at\n", "", "at the start", "on the path");
-  fmt::print("  {:<44}{:>14.6f}{:>14.6f}  {:.3f} s\n", "spectral radius a tick (stable below 1)",
-             start["spectral_radius"].get<double>(), path["spectral_radius"].get<double>(),
-             path["time_of_spectral_radius"].get<double>());
+  fmt::print("  {:<44}{:>14}{:>14}  {:.3f} s\n", "spectral radius a tick (stable below 1)",
+             fixed(start["spectral_radius"].get<double>(), 6),
+             fixed(path["spectral_radius"].get<double>(), 6), path["time_of_spectral_radius"].get<double>());
   fmt::print("  {:<44}{:>14}{:>14}  {:.3f} s\n", "longest command delay at this tick",
              milliseconds(start["longest_delay"]), milliseconds(path["longest_delay"]),
              path["time_of_longest_delay"].get<double>());
@@ -160,8 +160,8 @@ void print(const nlohmann::json& one) {
              milliseconds(start["longest_tick_without_delay"]));
   fmt::print("  {:<44}{:>14}\n", "longest RK4 step, control continuous",
              milliseconds(start["longest_rk4_step"]));
-  fmt::print("  {:<44}{:>10.1f} 1/s\n", "fastest pole, control continuous",
-             start["fastest_pole"].get<double>());
+  fmt::print("  {:<44}{:>10} 1/s\n", "fastest pole, control continuous",
+             fixed(start["fastest_pole"].get<double>(), 1));
   fmt::print("  {:<44}{:>14}\n", "largest factor on all gains", factor(start["gain_margin"]["most"]));
   fmt::print("  {:<44}{:>14}\n", "least factor on all gains",
              start["gain_margin"]["least"].is_null() ? "none needed" : factor(start["gain_margin"]["least"]));

@@ -64,6 +64,16 @@ TEST(Output, IntoAFileThatIsFullIsAnError) {
   }
 }
 
+TEST(Output, OfTheBusIntoALogThatIsFullIsAnError) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.file("kept"));
+  std::filesystem::create_symlink("/dev/full", folder.file("kept/run.lcmlog"));
+  Shell shell("mixloop run --out " + folder.file("kept") + " " + experiment("paper"));
+  EXPECT_EQ(shell.wait(), 3);
+  EXPECT_THAT(shell.err(),
+              HasSubstr("cannot write " + folder.file("kept/run.lcmlog") + ": No space left on device"));
+}
+
 TEST(Output, ThatEndsHalfWayLeavesNoHalf) {
   const ScratchFolder folder;
   Shell shell("trap '' XFSZ; ulimit -f 16; mixloop simulate --evaluation reference " + experiment("paper") +

@@ -64,7 +64,7 @@ export function summaryTable(runs) {
     ['Ended by', (run) => (run.result?.error ? `${run.result.error.message} (${run.result.error.code})` : null)],
     ['What was missed', (run) => (run.result?.missed?.length ? run.result.missed.join('; ') : null)],
     ['Faults in the plant', (run) => (run.faults?.length ? h('ul', { class: 'faults' }, run.faults.map(({ text, at }) => h('li', {}, text, at > run.end ? ' (after its end)' : null))) : null)],
-    ['Ticks', (run) => `${run.ticks - 1} at ${shown(run.rate)} Hz`],
+    ['Ticks', (run) => `${Math.max(0, run.ticks - 1)} at ${shown(run.rate)} Hz`],
     ['Route', (run) => run.result?.route ?? 'log'],
     ['Missed deadlines', result('missed_deadlines', String)],
     ['States sent again', result('resent', String)],
