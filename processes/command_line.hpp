@@ -14,8 +14,8 @@ class App;
 namespace mixloop {
 
 /// Runs a command line: parses, calls back, and turns every error into a message (or, with --json, into
-/// {"error": {code, message, where}} on stdout) and an exit status: 2 for bad input, 3 for a fault, of which one is
-/// that what was said could not be written, 130 for what was interrupted.
+/// {"error": {code, message, where}} on stdout) and an exit status: 2 for bad input, 3 for a fault, of which
+/// one is that what was said could not be written, 130 for what was interrupted.
 int run_command_line(int argc, char** argv, CLI::App& app, const int& status);
 
 /// The options that all commands on an experiment or a scene share.

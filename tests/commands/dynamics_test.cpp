@@ -38,7 +38,9 @@ TEST(DynamicsCommand, TakesEachMotorsOwnUnitAndNoOther) {
   const ScratchFolder folder;
   const std::string scene = folder.write("scene.yaml", kMixedMotorsScene);
   const auto with = [&](const std::string& option, const std::string& values) {
-    Command command({bin("mixloop"), "dynamics", scene, option, values, "--json"});
+    std::vector<std::string> words = {bin("mixloop"), "dynamics", scene, option, values, "--json"};
+    if (option != "--psi") words.insert(words.end(), {"--psi", "0.5 m, 0"});  // at 0 m nothing turns
+    Command command(words);
     const int status = command.wait();
     return status == 0 ? std::string("taken") : command.json()["error"]["code"].get<std::string>();
   };
