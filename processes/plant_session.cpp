@@ -71,8 +71,9 @@ void PlantSession::finish(const RunFault* fault) {
   Result result =
       result_of(experiment, run_.recorder().measures(), line_.real_time ? "real_time" : "lockstep",
                 std::chrono::duration<double>(bus_->wall_time).count());
-  const bool stopped = !fault && result.run->measures.interrupted_at;
-  result.warnings = stopped ? std::vector<std::string>() : review(experiment, run_.plan(), run_.recorder());
+  // One that was stopped is not looked back on, and one that holds on has deadlines to meet.
+  if (const bool stopped = !fault && result.run->measures.interrupted_at; !stopped && !line_.hold)
+    result.warnings = review(experiment, run_.plan(), run_.recorder());
   result.session = bus_->session;
   result.bus = bus_figures(*bus_);
   if (line_.real_time) add_deadlines(*result.bus, *bus_, run_.deadlines(), experiment.deadline.safe_state);

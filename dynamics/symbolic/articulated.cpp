@@ -146,9 +146,10 @@ class ArticulatedTracer final : public Tracer {
     }
     ExpressionVector taken = ExpressionVector::Constant(model().m(), E(0.0));
     add_coordinate_loads<E>(model(), at().q, at().qd, taken);
+    const ExpressionVector given = beside_the_joints(tau, taken);
     for (std::size_t i = frames_.size(); i-- > 0;) {
       Articulated mid = in_mid(i, bodies[i + 1]);
-      if (frames_[i].moves) open_joint(i, tau[psi_[i]] / slope(i) - taken[frames_.coordinate(i)], mid);
+      if (frames_[i].moves) open_joint(i, given[psi_[i]] / slope(i) - taken[frames_.coordinate(i)], mid);
       if (frames_.parent(i) == 0) continue;
       const Turn& turn = frames_[i].theta;
       const Articulated below = turned(mid, [&](const V3& x) { return turn.back_z(x); });
@@ -156,6 +157,21 @@ class ArticulatedTracer final : public Tracer {
       parent.I += below.I, parent.H += below.H, parent.M += below.M;
       parent.p.force += below.p.force, parent.p.moment += below.p.moment;
     }
+  }
+
+  // What loads at coordinates that are no joint's leave of tau: C^T of them.
+  ExpressionVector beside_the_joints(const ExpressionVector& tau, const ExpressionVector& taken) const {
+    std::vector<bool> joint(static_cast<std::size_t>(model().m()), false);
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+      if (frames_[i].moves) joint[static_cast<std::size_t>(frames_.coordinate(i))] = true;
+    ExpressionVector given = tau;
+    for (const auto& load : model().coordinate_loads) {
+      if (joint[static_cast<std::size_t>(load.coordinate)]) continue;
+      joint[static_cast<std::size_t>(load.coordinate)] = true;  // two loads at one are one in `taken`
+      for (Eigen::Index k = 0; k < given.size(); ++k)
+        given[k] -= at().C(load.coordinate, k) * taken[load.coordinate];
+    }
+    return given;
   }
 
   const E& slope(std::size_t i) const { return at().C(frames_.coordinate(i), psi_[i]); }

@@ -103,6 +103,39 @@ std::shared_ptr<const Scene> with_a_free_one(const Scene& scene) {
 // The motors' part of what all coordinates driven give, where the last motor's torque is nothing. Both sum
 // the same terms: they differ by round-off, 1e-12 of the largest output with M's condition number of 10 to
 // 1000.
+// A spring and a damper between two joints and at a dial: at coordinates that are no joint's, of a tree whose
+// forward dynamics go by articulated bodies.
+TEST(EquationsTest, LoadsMayActAtCoordinatesThatMoveNothing) {
+  const auto scene = scene_of(R"(
+motors: [a, b]
+coordinates: [q1, q2, between, dial]
+constraints: {q1: a, q2: b/3, between: q2 - 2*q1, dial: sin(a) + b/7}
+transforms:
+  - {from: 0, to: 1, theta: q1, a: 0.4 m, alpha: 30 deg}
+  - {from: 1, to: 2, theta: q2, a: 0.3 m}
+bodies:
+  - {frame: 1, mass: 2 kg, center_of_mass: [-0.1, 0.02, 0], inertia: {xx: 0.01, yy: 0.02, zz: 0.02}}
+  - {frame: 2, mass: 1 kg, center_of_mass: [-0.1, 0, 0.01], inertia: {xx: 0.01, yy: 0.01, zz: 0.01}}
+loads:
+  - {coordinate: between, stiffness: 3 N m/rad, rest: 0.2, damping: 0.4 N m s/rad}
+  - {coordinate: dial, stiffness: 5 N m/rad, damping: 0.1 N m s/rad}
+  - {coordinate: q2, stiffness: 1 N m/rad}
+end_effector: {frame: 2}
+)");
+  std::mt19937_64 random(7);
+  const Sample sample = random_sample(*scene, random);
+  std::vector<std::vector<double>> all;
+  for (const Evaluation how : kEvaluations) {
+    Equations::Workspace dynamics(equations_of(scene, how, {Purpose::forward_dynamics}),
+                                  std::vector<double>());
+    all.push_back(evaluated(dynamics, Purpose::forward_dynamics, sample));
+  }
+  for (std::size_t i = 0; i < all[0].size(); ++i) {
+    EXPECT_NEAR(all[1][i], all[0][i], 1e-12 * (1 + std::abs(all[0][i])));
+    EXPECT_EQ(all[2][i], all[1][i]);
+  }
+}
+
 TEST(EquationsTest, AFreeCoordinateIsADrivenOneWithoutTorque) {
   for (const auto& full : {robot(), scene_of(oracle::serial_chain(5))}) {
     const auto part = with_a_free_one(*full);
