@@ -17,7 +17,7 @@ ControllerSettings settings_from(const std::string& text) {
 }
 
 /// A state and what is desired of the trolley: a tenth of a metre ahead, 1 m/s faster, and to accelerate.
-struct Bench {
+struct CraneBench {
   std::vector<double> psi{0, 0.5}, psid{0, 2}, row{0.1, 1, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   double tau = 0;
 
@@ -30,7 +30,7 @@ struct Bench {
 };
 
 TEST(ControllerOfACrane, AnswersByTheMotorsErrors) {
-  Bench bench;
+  CraneBench bench;
   bench.command(settings_from("{law: pd, kp: [100], kv: [10]}"));
   EXPECT_NEAR(bench.tau, 100 * 0.1 + 10 * 1, 1e-12);
 }
@@ -38,18 +38,18 @@ TEST(ControllerOfACrane, AnswersByTheMotorsErrors) {
 // The motor's row of M a, the load not to accelerate, and of h: 3 a + sin(swing) swing'^2.
 TEST(ControllerOfACrane, KnowsTheFreeCoordinatesAsTheyAreMeasured) {
   for (const char* at : {"measured", "desired"}) {
-    Bench bench;
+    CraneBench bench;
     bench.command(settings_from(std::string("{law: computed_torque, kp: [100], kv: [10], feedforward_at: ") +
                                 at + "}"));
     EXPECT_NEAR(bench.tau, 20 + 3 * 4 + std::sin(0.5) * 4, 1e-12) << at;
   }
-  Bench bench;
+  CraneBench bench;
   bench.command(settings_from("{law: pd_gravity, kp: [100], kv: [10]}"));
   EXPECT_NEAR(bench.tau, 20, 1e-12) << "no weight is on the trolley's motor";
 }
 
 TEST(ControllerOfACrane, WatchesOverItsMotorsAlone) {
-  Bench bench;
+  CraneBench bench;
   EXPECT_FALSE(
       bench.command(settings_from("{law: pd, kp: [1], kv: [1], safety: {velocity_limit: [1 m/s]}}")).safe)
       << "the load swings by 2 rad/s";

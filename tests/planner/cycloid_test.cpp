@@ -12,7 +12,6 @@ namespace mixloop {
 namespace {
 
 using oracle::Wide;
-constexpr double kPi = std::numbers::pi;
 
 TEST(Cycloid, IsAtRestAtBothEnds) {
   for (const double x : {0.0, 1.0, -3.0, 7.0}) {
@@ -30,10 +29,10 @@ TEST(Cycloid, HasTheValuesByHandAtHalfAndQuarter) {
   EXPECT_DOUBLE_EQ(half.sd, 3);
   EXPECT_NEAR(half.sdd, 0, 1e-15);
   const auto quarter = cycloid(0.25, 3, 2);
-  EXPECT_DOUBLE_EQ(quarter.s, 3 * (0.25 - 1 / (2 * kPi)));
+  EXPECT_DOUBLE_EQ(quarter.s, 3 * (0.25 - 1 / (2 * std::numbers::pi)));
   EXPECT_DOUBLE_EQ(quarter.sd, 1.5);
-  EXPECT_DOUBLE_EQ(quarter.sdd, 1.5 * kPi);
-  EXPECT_DOUBLE_EQ(cycloid(0.75, 3, 2).sdd, -1.5 * kPi);
+  EXPECT_DOUBLE_EQ(quarter.sdd, 1.5 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(cycloid(0.75, 3, 2).sdd, -1.5 * std::numbers::pi);
 }
 
 // Against (34) and its derivatives in 113 bits; a few roundings, relative to each value, down to x = 1e-100.

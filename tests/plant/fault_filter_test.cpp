@@ -11,14 +11,14 @@ namespace {
 
 using Kind = Fault::Kind;
 
-constexpr double kRate = 1000;
+constexpr double kFilterRate = 1000;
 constexpr int kBegin = 10, kEnd = 60, kTicks = 100;
 
 double value(int k) { return 3 + std::sin(0.2 * k); }
 
 /// The sequence through a fault from kBegin to kEnd.
 std::vector<double> through(Kind kind, double magnitude, std::uint64_t seed = 1, int asked = 1) {
-  FaultFilter filter(Chance(seed), 0, Draw::motor_fault, kRate);
+  FaultFilter filter(Chance(seed), 0, Draw::motor_fault, kFilterRate);
   std::vector<double> out;
   for (int k = 0; k < kTicks; ++k) {
     if (k == kBegin) filter.start(kind, magnitude);
@@ -57,10 +57,11 @@ TEST(FaultFilter, DelayedKeepsTheLastValueAndThenGoesOnLate) {
 // Of a step of 1: 1 - e^(-t/T), t counted from the tick before it.
 TEST(FaultFilter, SlowFollowsTheExponential) {
   constexpr double kT = 0.008;
-  FaultFilter filter(Chance(1), 0, Draw::motor_fault, kRate);
+  FaultFilter filter(Chance(1), 0, Draw::motor_fault, kFilterRate);
   filter.pass(0, 0);
   filter.start(Kind::slow, kT);
-  for (int k = 1; k < 50; ++k) EXPECT_NEAR(filter.pass(k, 1), -std::expm1(-k / (kT * kRate)), 1e-14) << k;
+  for (int k = 1; k < 50; ++k)
+    EXPECT_NEAR(filter.pass(k, 1), -std::expm1(-k / (kT * kFilterRate)), 1e-14) << k;
 }
 
 TEST(FaultFilter, GarbageIsAnythingUpToItsMagnitude) {
@@ -77,7 +78,7 @@ TEST(FaultFilter, GarbageIsAnythingUpToItsMagnitude) {
 }
 
 TEST(FaultFilter, IntermittentIsOffForItsShareOfTime) {
-  FaultFilter filter(Chance(1), 0, Draw::motor_fault, kRate);
+  FaultFilter filter(Chance(1), 0, Draw::motor_fault, kFilterRate);
   filter.start(Kind::intermittent, 0.3);
   constexpr int kMany = 20'000;
   int off = 0;
@@ -97,7 +98,7 @@ TEST(FaultFilter, TakesTheLastValueOfATick) {
 
 TEST(FaultFilter, FromTheFirstTickOnKeepsTheFirstValue) {
   for (const Kind kind : {Kind::stuck, Kind::delayed, Kind::slow}) {
-    FaultFilter filter(Chance(1), 0, Draw::position_fault, kRate);
+    FaultFilter filter(Chance(1), 0, Draw::position_fault, kFilterRate);
     filter.start(kind, 0.01);
     EXPECT_EQ(filter.pass(0, 5), 5);
   }

@@ -15,7 +15,7 @@ namespace {
 using Kind = Fault::Kind;
 using Target = Fault::Target;
 
-constexpr double kIntegrated = 1e-11;  // DOP853 at 1 ms of rates of a few 1/s, over hundreds of ticks
+constexpr double kSumsUp = 1e-11;  // DOP853 at 1 ms of rates of a few 1/s, over hundreds of ticks
 
 PlantSettings with_faults(std::vector<Fault> scheduled, Method method = Method::rk4) {
   PlantSettings settings{.integrator = method};
@@ -139,7 +139,7 @@ TEST(Faults, ScaleFriction) {
       go_on(plant, 100, kU);
       const double w0 = kU / kD * -std::expm1(-kD * 0.1);
       // RODAS4 at 0.1 ms: 0.2 (h f d)^4 a second
-      const double tolerance = method == Method::rodas4 ? 1e-10 : kIntegrated;
+      const double tolerance = method == Method::rodas4 ? 1e-10 : kSumsUp;
       EXPECT_NEAR(plant.psid()[0], w0, tolerance) << facts(method).name;
       go_on(plant, 100, kU);
       const double end = kU / (kF * kD), w = plant.psid()[0];

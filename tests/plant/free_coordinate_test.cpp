@@ -14,16 +14,16 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kRate = 1000;
+constexpr double kCraneRate = 1000;
 
 PlantSettings settings_from(const std::string& text) {
-  return read_plant_settings(parse_document(text, "plant.yaml"), *crane(), kRate);
+  return read_plant_settings(parse_document(text, "plant.yaml"), *crane(), kCraneRate);
 }
 
 Plant crane_plant(const PlantSettings& settings) {
   const auto equations =
       equations_of(crane(), Evaluation::interpreter, {Purpose::forward_dynamics, Purpose::linearisation});
-  return {{equations, {}}, settings, kRate, std::vector{0.0, 0.0}};
+  return {{equations, {}}, settings, kCraneRate, std::vector{0.0, 0.0}};
 }
 
 double energy(const Plant& plant) {
@@ -61,7 +61,7 @@ TEST(PlantOfACrane, HasTheEnergyThatItsMotorHasGiven) {
 
 TEST(PlantOfACrane, HoldsItsMotorWhereTheCommandsEnded) {
   DeadlineSettings deadline{.max_missed = 2, .kp = Vector{{1000.0}}, .kv = Vector{{100.0}}};
-  DeadlinePlant hardware(crane_plant({}), {}, deadline, kRate, 100);
+  DeadlinePlant hardware(crane_plant({}), {}, deadline, kCraneRate, 100);
   hardware.command({}, std::array{6.0});
   for (int k = 0; k < 20; ++k) hardware.finish_tick();
   ASSERT_TRUE(hardware.safe());
@@ -91,7 +91,7 @@ TEST(PlantOfACrane, HasASensorForEachCoordinateAndADriveForEachMotor) {
 TEST(PlantOfACrane, HasItsFaultsByName) {
   const auto fault = [](const std::string& which) {
     return read_faults(parse_document("[{at: 0 s, " + which + ", kind: off}]", "faults.yaml"), *crane(),
-                       false, kRate, {})
+                       false, kCraneRate, {})
         .front();
   };
   EXPECT_EQ(fault("motor: trolley").index, 0);

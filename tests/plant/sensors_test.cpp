@@ -11,7 +11,7 @@
 namespace mixloop {
 namespace {
 
-constexpr double kRate = 1000;
+constexpr double kSensorRate = 1000;
 
 /// What sensors say of a course psi(k), psid(k), tick by tick.
 struct Reading {
@@ -21,7 +21,7 @@ struct Reading {
 template <class Course>
 std::vector<Reading> readings(const SensorSettings& settings, int ticks, const Course& course,
                               std::uint64_t seed = 1) {
-  const Sensors sensors(settings, seed, 1, kRate);
+  const Sensors sensors(settings, seed, 1, kSensorRate);
   Sensors::State memory = sensors.state();
   std::vector<Reading> all;
   for (int k = 0; k < ticks; ++k) {
@@ -97,23 +97,23 @@ TEST(Sensors, DifferentiateWhatTheyReadOverATick) {
   const SensorSettings settings{.resolution = {kStep}, .noise = {kStep}, .differentiated = true};
   const auto said = readings(settings, 100, swing);
   EXPECT_EQ(said[0].psid, 0);
-  for (int k = 1; k < 100; ++k) EXPECT_EQ(said[k].psid, (said[k].psi - said[k - 1].psi) * kRate);
+  for (int k = 1; k < 100; ++k) EXPECT_EQ(said[k].psid, (said[k].psi - said[k - 1].psi) * kSensorRate);
 }
 
 // A first-order low-pass of f answers a ramp of slope v that begins at tick 0 with v (1 - e^(-2 pi f t)).
 TEST(Sensors, LowPassTheDifferences) {
   constexpr double kF = 30, kV = 2;
   const auto said = readings({.differentiated = true, .velocity_filter = kF}, 200, [](int k) {
-    return State{kV * k / kRate, 77.0};
+    return State{kV * k / kSensorRate, 77.0};
   });
   for (int k = 0; k < 200; ++k)
-    EXPECT_NEAR(said[k].psid, kV * -std::expm1(-2 * std::numbers::pi * kF * k / kRate), 1e-12)
+    EXPECT_NEAR(said[k].psid, kV * -std::expm1(-2 * std::numbers::pi * kF * k / kSensorRate), 1e-12)
         << k;  // 200 roundings
 }
 
 TEST(Sensors, SayTheSameWheneverTheyAreAskedAgain) {
   const SensorSettings settings{.noise = {0.1}, .delay = {2}, .drop = {0.3}, .differentiated = true};
-  const Sensors sensors(settings, 5, 1, kRate), others(settings, 6, 1, kRate);
+  const Sensors sensors(settings, 5, 1, kSensorRate), others(settings, 6, 1, kSensorRate);
   Sensors::State once = sensors.state(), often = once, other = others.state();
   bool differs = false;
   for (int k = 0; k < 50; ++k) {

@@ -18,8 +18,6 @@
 namespace mixloop::stress {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-
 /// The paper's robot let go at home: no torque, no friction, 5 kg in its hand. A tick is a step.
 class FreeRobot {
  public:

@@ -3,10 +3,14 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 
 namespace mixloop::stress {
+
+/// Round-off, relative.
+inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// Whether the cases run at full length: tools/stress sets MIXLOOP_STRESS=full. As tests they are samples.
 bool full_length();

@@ -27,7 +27,6 @@ void go_to_tick(Plant& plant, std::int64_t tick) {
   plant.put_back(state);
 }
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr std::int64_t kLate = std::int64_t{1} << 40;
 
 Plant papers_plant(const PlantSettings& settings) {

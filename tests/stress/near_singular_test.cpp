@@ -21,7 +21,6 @@ namespace {
 
 using oracle::Wide;
 constexpr double kPi = std::numbers::pi;
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// psi of the angles q2 = a and q3 = b at q1 = 0: (B-2) and (B-3) turned round.
 std::vector<double> motors(double a, double b) { return {0, -16 * a, -16 * b}; }

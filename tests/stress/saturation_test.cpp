@@ -13,8 +13,6 @@
 namespace mixloop::stress {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-
 /// Where a plant under steps of torque ends after 300 ticks: psi, psid and work.
 struct Stepped {
   Vector end = Vector(7);

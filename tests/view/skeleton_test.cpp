@@ -16,7 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 
-Skeleton of(const std::string& name) {
+Skeleton skeleton_of(const std::string& name) {
   auto scene =
       std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES) / (name + ".yaml")));
   return Skeleton(scene, scene->default_parameters());
@@ -25,7 +25,7 @@ Skeleton of(const std::string& name) {
 // By hand: at psi = 0 all of Appendix B's q's are q1 = q2 = q3 = 0, so link 2 lies along x at the height L1
 // and the pantograph's first link too.
 TEST(Skeleton, PlacesThePapersRobot) {
-  Skeleton robot = of("mixed_loop_robot");
+  Skeleton robot = skeleton_of("mixed_loop_robot");
   robot.place(std::vector<double>{0, 0, 0}, 0);
   ASSERT_EQ(robot.frames(), 7u);
   const auto place = [&](std::size_t i) { return Eigen::Vector3d(robot.frame(i).col(3)); };
@@ -39,7 +39,7 @@ TEST(Skeleton, PlacesThePapersRobot) {
 // Links 4, 5, 6 and link 2's other side (26 cm at 57 degrees from the first) are a parallelogram: link 6 ends
 // on body 2.
 TEST(Skeleton, FindsWhereThePantographCloses) {
-  Skeleton robot = of("mixed_loop_robot");
+  Skeleton robot = skeleton_of("mixed_loop_robot");
   ASSERT_EQ(robot.closures().size(), 1u);
   EXPECT_EQ(robot.closures()[0].leaf, 6u);
   EXPECT_EQ(robot.closures()[0].on, 2u);
@@ -53,7 +53,7 @@ TEST(Skeleton, FindsWhereThePantographCloses) {
 
 // Link 2's two sides are drawn to the elbow, and to where link 6 ends on it.
 TEST(Skeleton, HandsOverTheSolidsThatTheSceneNames) {
-  Skeleton robot = of("mixed_loop_robot");
+  Skeleton robot = skeleton_of("mixed_loop_robot");
   const auto solids = robot.description()["solids"];
   ASSERT_EQ(solids.size(), 8u);
   EXPECT_EQ(solids[2]["frame"], 2);
@@ -64,23 +64,23 @@ TEST(Skeleton, HandsOverTheSolidsThatTheSceneNames) {
   const auto& to = solids[3]["to"];
   const Eigen::Vector3d end = at_point<double>(robot.frame(2), Eigen::Vector3d(to[0], to[1], to[2]));
   EXPECT_LT((end - Eigen::Vector3d(robot.frame(6).col(3))).norm(), 1e-14);
-  EXPECT_TRUE(of("double_four_bar").description()["solids"].empty());
+  EXPECT_TRUE(skeleton_of("double_four_bar").description()["solids"].empty());
 }
 
 TEST(Skeleton, ClosesEveryLoopOfTheScenes) {
   const Skeleton bars =
-      of("double_four_bar");  // all lying bars move in parallel; each ends on the next standing one
+      skeleton_of("double_four_bar");  // all lying bars move in parallel; each ends on the next standing one
   ASSERT_EQ(bars.closures().size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& [leaf, on] = bars.closures()[i];
     EXPECT_EQ(bars.scene().frames[leaf], "lying " + std::to_string(i + 1));
     EXPECT_EQ(bars.scene().frames[on], "standing " + std::to_string(i + 2));
   }
-  EXPECT_EQ(of("spatial_slider_crank").closures().size(), 1u);
+  EXPECT_EQ(skeleton_of("spatial_slider_crank").closures().size(), 1u);
 }
 
 TEST(Skeleton, ShowsEachMotorsTorqueAtAJointThatItMoves) {
-  const auto motors = of("mixed_loop_robot").description()["motors"];
+  const auto motors = skeleton_of("mixed_loop_robot").description()["motors"];
   std::vector<int> joints;
   for (const auto& motor : motors) joints.push_back(motor["joint"]);
   EXPECT_THAT(joints, ElementsAre(1, 2, 4));  // q1, q2, q3: the shoulder's three
@@ -89,19 +89,19 @@ TEST(Skeleton, ShowsEachMotorsTorqueAtAJointThatItMoves) {
 // The crank's motor turns the crank, frame 4, one to one; the slider, nearer to the ground, by no constant
 // ratio.
 TEST(Skeleton, PrefersTheJointThatTurnsAsTheMotorDoes) {
-  EXPECT_EQ(of("spatial_slider_crank").description()["motors"][0]["joint"], 4);
+  EXPECT_EQ(skeleton_of("spatial_slider_crank").description()["motors"][0]["joint"], 4);
 }
 
 TEST(Skeleton, SaysWhereTheFramesAreAtHome) {
   // Upright bars of 1 m on pivots 0, 1 and 2 m from the origin.
-  const auto frames = of("double_four_bar").description()["frames"];
+  const auto frames = skeleton_of("double_four_bar").description()["frames"];
   const Eigen::Vector3d top(frames.back()["home"][0], frames.back()["home"][1], frames.back()["home"][2]);
   EXPECT_LT((top - Eigen::Vector3d(2, 1, 0)).norm(), 1e-15);
   EXPECT_EQ(frames[0]["home"], nlohmann::json({0, 0, 0}));
 }
 
 TEST(Skeleton, WritesAPoseThatReadsBackToTheSameNumbers) {
-  Skeleton robot = of("mixed_loop_robot");
+  Skeleton robot = skeleton_of("mixed_loop_robot");
   Pose pose{.k = 12, .t = 0.012, .session = std::int64_t{1} << 62};
   pose.psi = {0.1, -16.7, 1.0 / 3};
   pose.tau = {1, std::nan(""), -2};

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-Traces of(const std::vector<float>& errors, std::size_t most = 100) {
+Traces traces_of(const std::vector<float>& errors, std::size_t most = 100) {
   Traces traces(1, most);
   for (std::size_t k = 0; k < errors.size(); ++k)
     traces.add({.t = 0.001 * static_cast<double>(k), .error = errors[k], .tau = {-errors[k]}});
@@ -23,7 +23,7 @@ json since(const Traces& traces, std::int64_t from, std::size_t most_points = 10
 }
 
 TEST(Traces, GivesEachReaderWhatItHasMissed) {
-  const Traces traces = of({1, 2, 3, 4});
+  const Traces traces = traces_of({1, 2, 3, 4});
   EXPECT_EQ(
       since(traces, 1),
       json::parse(R"({"t": [0.001, 0.002, 0.003], "error": [2, 3, 4], "tau": [[-2, -3, -4]], "way": []})"));
@@ -31,7 +31,7 @@ TEST(Traces, GivesEachReaderWhatItHasMissed) {
 }
 
 TEST(Traces, KeepsTheLatest) {
-  const Traces traces = of({1, 2, 3, 4, 5}, 3);
+  const Traces traces = traces_of({1, 2, 3, 4, 5}, 3);
   EXPECT_EQ(traces.count(), 5);
   EXPECT_EQ(since(traces, 0)["error"], json({3, 4, 5}));
 }
@@ -43,7 +43,7 @@ TEST(Traces, LosesNoPeakToASlowReader) {
   for (const std::size_t peak : {std::size_t{0}, std::size_t{499}, std::size_t{500}, std::size_t{999}}) {
     auto with_peak = errors;
     with_peak[peak] = 100;
-    const json seen = since(of(with_peak, 2000), 0, 20);
+    const json seen = since(traces_of(with_peak, 2000), 0, 20);
     ASSERT_EQ(seen["t"].size(), 20u);
     const auto values = seen["error"].get<std::vector<float>>();
     EXPECT_EQ(*std::max_element(values.begin(), values.end()), 100) << peak;
@@ -54,8 +54,8 @@ TEST(Traces, LosesNoPeakToASlowReader) {
 }
 
 TEST(Traces, SaysNullWhereNothingIsKnown) {
-  EXPECT_EQ(since(of({NAN, 1}), 0)["error"], json::parse("[null, 1]"));
-  EXPECT_EQ(since(of({NAN, NAN, NAN, NAN}), 0, 2)["error"], json::parse("[null, null]"));
+  EXPECT_EQ(since(traces_of({NAN, 1}), 0)["error"], json::parse("[null, 1]"));
+  EXPECT_EQ(since(traces_of({NAN, NAN, NAN, NAN}), 0, 2)["error"], json::parse("[null, null]"));
 }
 
 // By hand: of ticks 0 to 9, 4 at most, the last among them: 1, 4, 6, 9.

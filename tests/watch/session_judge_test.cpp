@@ -12,7 +12,7 @@
 namespace mixloop {
 namespace {
 
-constexpr std::int64_t kSession = 7;
+constexpr std::int64_t kJudgedSession = 7;
 
 /// A run of the paper's robot, and a judge that hears of it what a test lets it hear.
 class JudgedSession : public testing::Test {
@@ -37,7 +37,7 @@ class JudgedSession : public testing::Test {
     m.psid_measured.assign(psid.begin(), psid.end());
     judge.on_state(bytes_of(m));
   }
-  void command(std::int64_t k, std::int64_t session = kSession) {
+  void command(std::int64_t k, std::int64_t session = kJudgedSession) {
     auto m = message<command_t>(k);
     m.session = session;
     const auto tau = run_.recorder().commanded(k);
@@ -63,7 +63,8 @@ class JudgedSession : public testing::Test {
   template <class Message>
   Message message(std::int64_t k) const {
     auto m = blank<Message>(3);
-    set_header(m, {.n = 3, .seq = k, .session = kSession, .config = config_of(common_ground(experiment_))});
+    set_header(
+        m, {.n = 3, .seq = k, .session = kJudgedSession, .config = config_of(common_ground(experiment_))});
     return m;
   }
   template <class Message>
@@ -126,8 +127,8 @@ TEST_F(JudgedSession, CountsATickWhoseCommandWasLost) {
 }
 
 TEST_F(JudgedSession, HearsNothingOfOtherSessions) {
-  command(0, kSession + 1);
-  for (std::int64_t k = 0; k <= last; ++k) state(k), command(k, kSession + 1), command(k);
+  command(0, kJudgedSession + 1);
+  for (std::int64_t k = 0; k <= last; ++k) state(k), command(k, kJudgedSession + 1), command(k);
   end();
   expect_the_whole_run();
 }

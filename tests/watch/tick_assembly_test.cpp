@@ -14,11 +14,11 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr std::int64_t kSession = 7;
+constexpr std::int64_t kAssembledSession = 7;
 constexpr auto kWhole = [](const HeardTick& tick) { return tick.get<state_t>() && tick.get<command_t>(); };
 
 template <class Message>
-Message message(std::int64_t tick, std::int64_t session = kSession) {
+Message message(std::int64_t tick, std::int64_t session = kAssembledSession) {
   Message m = blank<Message>(1);
   set_header(m, {.n = 1, .utime = 1000 * tick, .seq = tick, .session = session, .config = 5});
   return m;
@@ -40,7 +40,7 @@ class Assembly : public testing::Test {
   void begin(TickAssembly::Options options = {}) {
     options.on_tick = [this](const HeardTick& tick) { given.push_back(text_of(tick)); };
     ticks.emplace(options);
-    ticks->begin(kSession, 0);
+    ticks->begin(kAssembledSession, 0);
   }
   Taken state(std::int64_t k) { return ticks->add(message<state_t>(k)); }
   Taken reference(std::int64_t k) { return ticks->add(message<reference_t>(k)); }
@@ -159,7 +159,7 @@ TEST_F(Assembly, ForgetsTheOldSessionWhenThePlantBeginsAgainAtTick0) {
 
 TEST_F(Assembly, BeginsWhereItIsTold) {
   begin();
-  ticks->begin(kSession, 1000);
+  ticks->begin(kAssembledSession, 1000);
   EXPECT_EQ(ticks->newest(), 999);
   EXPECT_EQ(reference(999), Taken::late);
   EXPECT_EQ(reference(1001), Taken::fresh);

@@ -20,12 +20,12 @@ const Scene& paper_scene() {
   return scene;
 }
 
-struct State {
+struct Pose {
   Vector3 psi, psid, input;
 };
 
 /// Motor angles, rates and torques well past those of the paper's path.
-State random_state(std::mt19937_64& random) {
+Pose random_state(std::mt19937_64& random) {
   std::uniform_real_distribution<double> angle(-30, 30), rate(-40, 40), torque(-5, 5);
   const auto draw = [&](auto& from) { return Vector3(from(random), from(random), from(random)); };
   return {draw(angle), draw(rate), draw(torque)};

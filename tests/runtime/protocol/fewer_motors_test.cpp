@@ -12,7 +12,7 @@
 namespace mixloop {
 namespace {
 
-constexpr int kN = kScriptN, kMotors = 2;
+constexpr int kCoordinates = kScriptN, kMotors = 2;
 
 template <class Message>
 Message of_motors(std::int64_t tick, int n = kMotors) {
@@ -49,18 +49,20 @@ struct Sizes final : LockstepSide {
 TEST(FewerMotors, ThePlantTakesTheirCommandsAlone) {
   ScriptedPeer script{"STATE"};
   Sizes side;
-  RunningPeer<LockstepPlant> plant(
-      PlantOptions{
-          .n = kN, .n_u = kMotors, .last_tick = 0, .session = kScriptSession, .config = kScriptConfig},
-      side);
+  RunningPeer<LockstepPlant> plant(PlantOptions{.n = kCoordinates,
+                                                .n_u = kMotors,
+                                                .last_tick = 0,
+                                                .session = kScriptSession,
+                                                .config = kScriptConfig},
+                                   side);
   const auto state = script.next<state_t>("STATE");
   ASSERT_TRUE(state);
-  EXPECT_EQ(state->n, kN);
-  script.send("COMMAND", of_motors<command_t>(0, kN));
+  EXPECT_EQ(state->n, kCoordinates);
+  script.send("COMMAND", of_motors<command_t>(0, kCoordinates));
   script.send("COMMAND", of_motors<command_t>(0));
   EXPECT_EQ(plant.ending(), Ending::finished);
   EXPECT_EQ(plant.peer.report().rejects.of(Reject::dimension), 1U);
-  EXPECT_EQ(side.measured, std::size_t{kN});
+  EXPECT_EQ(side.measured, std::size_t{kCoordinates});
   EXPECT_EQ(side.commanded, std::size_t{kMotors});
 }
 
@@ -72,19 +74,20 @@ TEST(FewerMotors, TheControllerAnswersForThem) {
     tau[1] = static_cast<double>(reference.psi_desired.size());
     return 0;
   };
-  RunningPeer<ControllerPeer> peer(PeerOptions{.n = kN, .n_u = kMotors, .config = kScriptConfig}, side);
+  RunningPeer<ControllerPeer> peer(PeerOptions{.n = kCoordinates, .n_u = kMotors, .config = kScriptConfig},
+                                   side);
   script.send_state(0);
   script.send("REFERENCE", of_motors<reference_t>(0));
   const auto command = next<command_t>(script, "COMMAND");
   ASSERT_TRUE(command);
-  EXPECT_THAT(command->tau_commanded, testing::ElementsAre(kN, kMotors));
+  EXPECT_THAT(command->tau_commanded, testing::ElementsAre(kCoordinates, kMotors));
   script.send_end();
   EXPECT_EQ(peer.ending(), Ending::finished);
 }
 
 TEST(FewerMotors, ThePlannerRefersToThem) {
   ScriptedPeer script{"REFERENCE"};
-  RunningPeer<PlannerPeer> peer(PeerOptions{.n = kN, .n_u = kMotors, .config = kScriptConfig},
+  RunningPeer<PlannerPeer> peer(PeerOptions{.n = kCoordinates, .n_u = kMotors, .config = kScriptConfig},
                                 PlannerSide{.refer = [](std::int64_t, reference_t&) {}, .begin = {}});
   script.send_state(0);
   const auto reference = next<reference_t>(script, "REFERENCE");

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr PeerOptions kOptions{.n = kScriptN, .n_u = kScriptN, .config = kScriptConfig, .last_tick = 1000};
+const PeerOptions kOptions{.n = kScriptN, .n_u = kScriptN, .config = kScriptConfig, .last_tick = 1000};
 
 // tau = (psi_desired, tick, 0): shows which reference and which state it was made of.
 ControllerSide telling_law() {
