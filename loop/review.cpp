@@ -27,32 +27,66 @@ std::optional<StepDoubt> doubt(const Experiment& experiment, const Plan& plan,
   return StepDoubt{describe(*worst, steps, task, plants), worst->grows()};
 }
 
-/// The states that the plant met, and what its drives were asked for. A run that diverged ends in states that
-/// are its divergence.
-std::vector<PlantPose> poses_met(const Recorder& record) {
+/// The programs that such a look takes need no compiling.
+PlantProbe probe_of(const Experiment& experiment) {
+  return {experiment.scene, experiment.plant_parameters, experiment.plant.actuators, Evaluation::reference};
+}
+
+/// The ticks whose states are looked at. A run that diverged ends in states that are its divergence.
+std::vector<std::int64_t> ticks_met(const Recorder& record) {
   std::int64_t ticks = record.ticks_recorded();
   if (record.measures().diverged_at) ticks -= ticks / 4;
-  std::vector<PlantPose> poses;
   auto chosen = ticks_to_look_at(ticks);
   if (ticks > 0 && chosen.back() != ticks - 1) chosen.push_back(ticks - 1);
-  for (const std::int64_t k : chosen) {
-    const auto psi = map_of(record.psi(k)), psid = map_of(record.psid(k));
-    PlantPose pose{record.time(k), Vector(psi.size() + psid.size()), map_of(record.commanded(k))};
-    pose.x << psi, psid;
-    poses.push_back(std::move(pose));
+  return chosen;
+}
+
+/// The state that the plant met at tick k, and what its drives were asked for.
+PlantPose pose_met(const Recorder& record, std::int64_t k) {
+  const auto psi = map_of(record.psi(k)), psid = map_of(record.psid(k));
+  PlantPose pose{record.time(k), Vector(psi.size() + psid.size()), map_of(record.commanded(k))};
+  pose.x << psi, psid;
+  return pose;
+}
+
+/// The plant about the states that it met, with the parameters that it had there.
+std::vector<LinearPlant> plants_met(PlantProbe& probe, const Recorder& record) {
+  std::vector<LinearPlant> plants;
+  for (const std::int64_t k : ticks_met(record)) {
+    probe.set_parameters(record.conditions(k).parameters);
+    const PlantPose pose = pose_met(record, k);
+    plants.push_back({pose.t, probe.state_matrix(pose)});
   }
-  return poses;
+  return plants;
+}
+
+/// Of `integrator: auto`: that it added more than was asked for, where the plant was as it had been taken to
+/// be.
+std::vector<std::string> choice_warnings(const Experiment& experiment, const Recorder& record) {
+  const auto& choice = experiment.integrator_choice;
+  if (!choice) return {};
+  std::vector<PlantPose> poses;
+  for (const std::int64_t k : ticks_met(record))
+    if (record.conditions(k).since < 0) poses.push_back(pose_met(record, k));
+  PlantProbe probe = probe_of(experiment);
+  const ChoiceTask task{experiment.rate_hz, choice->asked, !experiment.plant.actuators.any()};
+  const LocalError met = largest_local_error(probe, poses, steps_of(experiment.plant), task);
+  if (met.error <= choice->asked) return {};
+  return {
+      fmt::format("integrator: auto took {} with {} step{} a tick for the path, but at {:.4g} s, where the "
+                  "run really was, that "
+                  "adds {:.1e} a tick and {:.1e} was asked for; expected a smaller plant.local_error, or a "
+                  "named integrator",
+                  facts(choice->method).name, choice->substeps, choice->substeps == 1 ? "" : "s", met.t,
+                  met.error, choice->asked)};
 }
 
 std::vector<std::string> jump_warnings(const Experiment& experiment, const Recorder& record) {
   AngleWatch angles(*experiment.scene, experiment.plant_parameters);
   for (std::int64_t k = 0; angles.needed() && k < record.ticks_recorded(); ++k)
     if (const std::string jumped = angles.look(record.psi(k), record.time(k)); !jumped.empty())
-      return {fmt::format(
-          "the coordinate '{}' jumped by a turn at {:.4g} s: its atan2 gives no more than one turn "
-          "about its value at home, and its value counts (a load, a slide or a gear reads it); from "
-          "there on the motion is not the mechanism's",
-          jumped, record.time(k))};
+      return {fmt::format("at {:.4g} s {}; from there on the motion is not the mechanism's", record.time(k),
+                          jumped)};
   return {};
 }
 
@@ -67,11 +101,6 @@ std::vector<std::string> singular_warnings(const Experiment& experiment, const R
   return {fmt::format("the mass matrix was singular at {:.4g} s: {}", record.time(last), *why)};
 }
 
-/// The programs that such a look takes need no compiling.
-PlantProbe probe_of(const Experiment& experiment) {
-  return {experiment.scene, experiment.plant_parameters, experiment.plant.actuators, Evaluation::reference};
-}
-
 }  // namespace
 
 std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& plan) {
@@ -81,27 +110,13 @@ std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& pl
 }
 
 std::vector<std::string> review(const Experiment& experiment, const Plan& plan, const Recorder& record) {
+  if (record.ticks_recorded() == 0) return {};
   std::vector<std::string> said;
-  const std::int64_t ticks = record.ticks_recorded();
-  if (ticks == 0) return said;
   PlantProbe probe = probe_of(experiment);
-  const auto poses = poses_met(record);
   if (!step_doubt(experiment, plan))
-    if (const auto met = doubt(experiment, plan, linearised(probe, poses)))
+    if (const auto met = doubt(experiment, plan, plants_met(probe, record)))
       said.push_back(met->text + " (a state that the run met)");
-  if (const auto& choice = experiment.integrator_choice; choice && said.empty()) {
-    const ChoiceTask task{experiment.rate_hz, choice->asked, !experiment.plant.actuators.any()};
-    const LocalError met = largest_local_error(probe, poses, steps_of(experiment.plant), task);
-    if (!(met.error <= choice->asked))
-      said.push_back(
-          fmt::format("integrator: auto took {} with {} step{} a tick for the path, but at {:.4g} s, where "
-                      "the run really was, "
-                      "that adds {:.1e} a tick and {:.1e} was asked for; expected a smaller "
-                      "plant.local_error, or a named "
-                      "integrator",
-                      facts(choice->method).name, choice->substeps, choice->substeps == 1 ? "" : "s", met.t,
-                      met.error, choice->asked));
-  }
+  if (said.empty()) said = choice_warnings(experiment, record);
   for (auto& more : {jump_warnings(experiment, record), singular_warnings(experiment, record)})
     said.insert(said.end(), more.begin(), more.end());
   return said;

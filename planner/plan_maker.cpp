@@ -123,7 +123,7 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   check_limits(plan, delay);
 }
 
-/// The angle that jumped since the last look.
+// Which angle jumped since the last look, and why.
 std::string PlanMaker::jump(AngleWatch& angles, const Vector& motors, double t) const {
   if (!angles.needed()) return {};
   return angles.look(span_of(with_free_at_home(*model_.scene, {motors, {}, {}}).psi), t);

@@ -41,19 +41,12 @@ void Refusal::excess(const Excess& excess) const {
   throw InputError("over_limit", itinerary_.place(step), where(step) + excess.message);
 }
 
-std::string Refusal::jump_text(const std::string& coordinate) {
-  return "the coordinate '" + coordinate +
-         "' jumps by a turn, half a turn away from its value at home: its atan2 gives no more than one turn, "
-         "and "
-         "its value counts (a load, a slide or a gear reads it); expected a path that stays within it";
+void Refusal::jump(double step, const std::string& jumped) const {
+  throw InputError("angle_jumps", itinerary_.place(step), where(step) + jumped);
 }
 
-void Refusal::jump(double step, const std::string& coordinate) const {
-  throw InputError("angle_jumps", itinerary_.place(step), where(step) + jump_text(coordinate));
-}
-
-void Refusal::jump_before(double step, const std::string& coordinate, double duration) const {
-  throw InputError("angle_jumps", path_.place, where_before(step, duration) + jump_text(coordinate));
+void Refusal::jump_before(double step, const std::string& jumped, double duration) const {
+  throw InputError("angle_jumps", path_.place, where_before(step, duration) + jumped);
 }
 
 void Refusal::passage_before(const Passage& passage, double duration) const {

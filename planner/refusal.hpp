@@ -20,10 +20,10 @@ class Refusal {
   [[noreturn]] void no_way(Follower& follower, double step) const;
   [[noreturn]] void passage(const Passage& passage) const;
   [[noreturn]] void excess(const Excess& excess) const;
-  /// A coordinate whose value counts jumps by a turn.
-  [[noreturn]] void jump(double step, const std::string& coordinate) const;
+  /// A coordinate jumps, as AngleWatch says.
+  [[noreturn]] void jump(double step, const std::string& jumped) const;
   /// The same on the move to the start.
-  [[noreturn]] void jump_before(double step, const std::string& coordinate, double duration) const;
+  [[noreturn]] void jump_before(double step, const std::string& jumped, double duration) const;
   [[noreturn]] void passage_before(const Passage& passage, double duration) const;
   [[noreturn]] void excess_before(const Excess& excess, double duration) const;
 
@@ -32,7 +32,6 @@ class Refusal {
   double out_of_reach(double step, double t, Vector nearby) const;
   std::string reach_text(double step, double t, Vector nearby) const;
   std::string text(const Passage& passage) const;
-  static std::string jump_text(const std::string& coordinate);
   std::string where(double step) const;
   std::string where_before(double step, double duration) const;
 

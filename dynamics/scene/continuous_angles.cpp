@@ -43,15 +43,20 @@ class Counting {
         look(formula, node.left, false);
         return;
       case Op::atan2:
-        if (value) found_.push_back(index);
-        [[fallthrough]];
+        if (value) found_.push_back({0, index, false});
+        break;
+      case Op::atan:
+        if (has_pole(formula, node.left)) found_.push_back({0, index, true});
+        break;
       default:
-        look(formula, node.left, true);
-        if (node.right >= 0) look(formula, node.right, true);
+        break;
     }
+    look(formula, node.left, true);
+    if (node.right >= 0) look(formula, node.right, true);
   }
 
-  const std::vector<int>& found() const { return found_; }
+  /// Without the coordinate that they stand in.
+  const std::vector<CountedAngle>& found() const { return found_; }
 
  private:
   static bool whole(const Formula& formula, int index) {
@@ -59,9 +64,21 @@ class Counting {
     return node.op == Op::constant && node.value == std::round(node.value);
   }
 
+  static bool has_pole(const Formula& formula, int index) {
+    const Formula::Node& node = formula.nodes[static_cast<std::size_t>(index)];
+    const auto constant = [&](int i) {
+      return formula.nodes[static_cast<std::size_t>(i)].op == Op::constant;
+    };
+    if (node.op == Op::tan || (node.op == Op::divide && !constant(node.right)) ||
+        (node.op == Op::power && node.exponent < 0))
+      return true;
+    return (node.left >= 0 && has_pole(formula, node.left)) ||
+           (node.right >= 0 && has_pole(formula, node.right));
+  }
+
   Symbols symbols_;
   std::vector<bool>& counted_;
-  std::vector<int> found_;
+  std::vector<CountedAngle> found_;
 };
 
 /// The slope of a transform's affine formula in its coordinate is a whole number.
@@ -168,6 +185,15 @@ class Turned {
   Formula made_;
 };
 
+std::string jump_text(const std::string& coordinate, bool of_quotient) {
+  return "the coordinate '" + coordinate + "' jumps by " +
+         (of_quotient ? "half a turn where the divisor in its atan passes zero; expected the atan2 of the "
+                        "two, which goes on"
+                      : "a turn, half a turn away from its value at home: its atan2 gives no more than one, "
+                        "and its value "
+                        "counts (a load, a slide or a gear reads it); expected a motion within it");
+}
+
 }  // namespace
 
 std::vector<CountedAngle> counted_angles(const Scene& scene) {
@@ -179,7 +205,7 @@ std::vector<CountedAngle> counted_angles(const Scene& scene) {
     Counting counting(scene, counted);
     counting.look(constraint, static_cast<int>(constraint.nodes.size()) - 1,
                   counted[static_cast<std::size_t>(*j)]);
-    for (const int node : counting.found()) angles.push_back({*j, node});
+    for (const CountedAngle& angle : counting.found()) angles.push_back({*j, angle.node, angle.of_quotient});
   }
   return angles;
 }
@@ -193,7 +219,7 @@ void turn_cuts_away_from_home(Scene& scene) {
     std::vector<std::pair<int, double>> turns;
     Formula& constraint = scene.coordinates[j].constraint;
     for (const auto& angle : angles)
-      if (static_cast<std::size_t>(angle.coordinate) == j)
+      if (static_cast<std::size_t>(angle.coordinate) == j && !angle.of_quotient)
         if (const double h = value_of(constraint, angle.node, symbols); std::isfinite(h) && h != 0)
           turns.emplace_back(angle.node, h);
     if (!turns.empty()) constraint = Turned(constraint, turns).take();
@@ -211,12 +237,13 @@ std::string AngleWatch::look(std::span<const double> psi, double t) {
   follow(scene_, symbols_);
   std::string jumped;
   std::vector<double> now;
-  for (const auto& [coordinate, node] : angles_) {
-    const auto& at = scene_.coordinates[static_cast<std::size_t>(coordinate)];
-    now.push_back(value_of(at.constraint, node, symbols_));
-    if (const std::size_t i = now.size() - 1;
-        jumped.empty() && !last_.empty() && std::abs(now[i] - last_[i]) > std::numbers::pi)
-      jumped = at.name;
+  for (const CountedAngle& angle : angles_) {
+    const auto& coordinate = scene_.coordinates[static_cast<std::size_t>(angle.coordinate)];
+    now.push_back(value_of(coordinate.constraint, angle.node, symbols_));
+    if (last_.empty() || !jumped.empty()) continue;
+    const double by = std::abs(now.back() - last_[now.size() - 1]);
+    if (by > std::numbers::pi / (angle.of_quotient ? 2 : 1))
+      jumped = jump_text(coordinate.name, angle.of_quotient);
   }
   last_ = std::move(now);
   return jumped;

@@ -8,16 +8,18 @@
 
 namespace mixloop {
 
-/// An atan2 in a constraint whose value counts, not only its sine and cosine: a load reads the coordinate, a
-/// slide moves by it, or it is taken times what is no whole number. A jump of a whole turn would be one of
-/// the mechanism.
+/// An arc tangent in a constraint that may jump where the mechanism doesn't: an atan2 whose value counts, not
+/// only its sine and cosine (a load reads the coordinate, a slide moves by it, or it is taken times what is
+/// no whole number), by a turn at its cut; an atan of a quotient by half a turn where the divisor passes
+/// zero.
 struct CountedAngle {
   int coordinate = 0;
   int node = 0;  ///< of the constraint's formula
+  bool of_quotient = false;
 };
 std::vector<CountedAngle> counted_angles(const Scene& scene);
 
-/// Writes each of them as h + atan2 of what is turned back by h, its value at home for the default
+/// Writes each atan2 of them as h + atan2 of what is turned back by h, its value at home for the default
 /// parameters: its cut, where it jumps, lies half a turn away from home, and an angle that starts at 170 deg
 /// goes on through 180.
 void turn_cuts_away_from_home(Scene& scene);
@@ -28,7 +30,7 @@ class AngleWatch {
   AngleWatch(const Scene& scene, std::vector<double> parameters);
 
   bool needed() const { return !angles_.empty(); }
-  /// The coordinate that jumped since the last look, by name; empty where none did, and at the first look.
+  /// Which coordinate jumped since the last look, and why; empty where none did, and at the first look.
   std::string look(std::span<const double> psi, double t);
 
  private:

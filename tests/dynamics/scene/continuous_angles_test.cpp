@@ -81,8 +81,39 @@ TEST(AngleWatch, TellsAJumpHalfATurnAwayFromHome) {
     EXPECT_EQ(watch.look(std::span(&psi, 1), 0), "") << degrees;
   }
   const double past = 351 * kTurn / 360;
-  EXPECT_EQ(watch.look(std::span(&past, 1), 0), "seen");
+  EXPECT_NE(watch.look(std::span(&past, 1), 0).find("'seen' jumps by a turn"), std::string::npos);
   EXPECT_FALSE(AngleWatch(crank("170 deg", ""), {}).needed());
+}
+
+// A parallelogram's pose would flip where x passes zero.
+TEST(AngleWatch, TellsThePoleOfAQuotientsAtan) {
+  const Scene scene = load_scene(parse_document(R"yaml(
+motors: [psi]
+coordinates: [seen]
+constraints: {seen: atan(sin(psi)/cos(psi))}
+transforms: [{from: 0, to: 1, theta: seen, a: 1 m}]
+bodies: [{frame: 1, mass: 1 kg}]
+end_effector: {frame: 1, axes: [x]}
+)yaml",
+                                                "scene.yaml"));
+  AngleWatch watch(scene, {});
+  for (double degrees = 0; degrees < 90; ++degrees) {
+    const double psi = degrees * kTurn / 360;
+    EXPECT_EQ(watch.look(std::span(&psi, 1), 0), "") << degrees;
+  }
+  const double past = 91 * kTurn / 360;
+  EXPECT_NE(watch.look(std::span(&past, 1), 0).find("jumps by half a turn"), std::string::npos);
+  EXPECT_TRUE(counted_angles(load_scene(parse_document(R"yaml(
+motors: [psi]
+coordinates: [seen]
+constraints: {seen: atan(0.1*sin(psi)/2)}
+transforms: [{from: 0, to: 1, theta: seen, a: 1 m}]
+bodies: [{frame: 1, mass: 1 kg}]
+end_effector: {frame: 1, axes: [x]}
+)yaml",
+                                                       "scene.yaml")))
+                  .empty())
+      << "a constant divisor";
 }
 
 }  // namespace
