@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "controller/guarded_controller.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,11 +36,13 @@ std::string GuardedController::start_refusal(std::span<const double> psi, const 
         settings_.start_tolerance.empty() ? kStartTolerance : settings_.start_tolerance[i];
     const double should = start.psi[static_cast<Eigen::Index>(i)];
     if (std::abs(psi[i] - should) <= tolerance) continue;
-    const std::string unit = std::string(" ") + position_unit(controller_.scene().motors()[i].linear);
-    return "motor " + std::to_string(i + 1) + " stands at " + fixed(psi[i], 6) + unit +
-           ", the path starts at " + fixed(should, 6) + unit +
-           ", farther than controller.safety.start_tolerance (" + fixed(tolerance, 6) + unit +
-           "): say where it stands by plant.initial, and path.approach to move there";
+    return fmt::format(
+        "motor {0} stands at {1} {4}, the path starts at {2} {4}, farther than "
+        "controller.safety.start_tolerance ({3} {4}): say where it stands by plant.initial, and "
+        "path.approach to move "
+        "there",
+        i + 1, fixed(psi[i], 6), fixed(should, 6), fixed(tolerance, 6),
+        position_unit(controller_.scene().motors()[i].linear));
   }
   return "";
 }
