@@ -10,9 +10,8 @@
 namespace mixloop {
 namespace {
 
-constexpr std::uint32_t kUdpHeader = 8;              // the program sees the packet from its UDP header on
-constexpr std::uint32_t kLcmHeader = 8;              // magic and sequence number
-constexpr std::uint32_t kShortMessage = 0x4c433032;  // "LC02"
+constexpr std::uint32_t kUdpHeader = 8;  // the program sees the packet from its UDP header on
+constexpr std::uint32_t kLcmHeader = 8;  // magic and sequence number
 constexpr std::uint32_t kKeepAll = 0xffffffff, kDrop = 0;
 
 constexpr std::uint16_t load(std::size_t width) {

@@ -3,11 +3,15 @@
 
 #include <linux/filter.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace mixloop {
+
+/// What a short LCM message begins with: "LC02", highest byte first.
+inline constexpr std::uint32_t kShortMessage = 0x4c433032;
 
 /// A classic BPF program for a receiving socket: it keeps short LCM messages ("LC02") on one of these
 /// channels and drops the rest in the kernel.

@@ -19,10 +19,9 @@
 namespace mixloop {
 namespace {
 
-constexpr std::uint32_t kShortMessage = 0x4c433032;  // "LC02"
-constexpr std::size_t kHeader = 8;                   // magic and sequence number
-constexpr std::size_t kLongestName = 63;             // LCM_MAX_CHANNEL_NAME_LENGTH
-constexpr int kBuffer = 4 << 20;  // bytes that may wait; the kernel gives what rmem_max allows
+constexpr std::size_t kHeader = 8;        // magic and sequence number
+constexpr std::size_t kLongestName = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
+constexpr int kBuffer = 4 << 20;          // bytes that may wait; the kernel gives what rmem_max allows
 
 [[noreturn]] void refuse(int socket, const char* what) {
   const std::string why = std::strerror(errno);
