@@ -112,17 +112,17 @@ TEST(Procedure, AgreesWithLagrangeMultipliersOnTheSameTree) {
 
 // In 113 bits the only differences left are the scene's decimals, rounded to doubles (1e-16).
 TEST(Procedure, AgreesWithTheClosedFormInWideFloats) {
-  using WideVector = oracle::MixedLoopRobot<Wide>::Vector3;
+  using WideVector3 = oracle::MixedLoopRobot<Wide>::Vector3;
   Procedure<Wide> robot(paper_scene());
   const oracle::MixedLoopRobot<Wide> closed_form(oracle::paper_numbers<Wide>());
   std::mt19937_64 random(9);
   for (int sample = 0; sample < 20; ++sample) {
     const auto [psi, psid, tau] = random_state(random);
-    const auto wide = [](const Vector3& x) -> WideVector {
-      return WideVector(Wide(x[0]), Wide(x[1]), Wide(x[2]));
+    const auto wide = [](const Vector3& x) -> WideVector3 {
+      return WideVector3(Wide(x[0]), Wide(x[1]), Wide(x[2]));
     };
-    const WideVector expected = closed_form.forward_dynamics(wide(psi), wide(psid), wide(tau));
-    const WideVector actual = robot.forward(wide(psi), wide(psid), wide(tau));
+    const WideVector3 expected = closed_form.forward_dynamics(wide(psi), wide(psid), wide(tau));
+    const WideVector3 actual = robot.forward(wide(psi), wide(psid), wide(tau));
     EXPECT_LT(static_cast<double>(Wide((actual - expected).norm() / expected.norm())), 1e-13);
   }
 }
