@@ -41,7 +41,9 @@ Receiver::Receiver(const MulticastGroup& group, std::span<const sock_filter> fil
   if (socket_ < 0) refuse(socket_, "socket");
   if (!attach(socket_, filter)) refuse(socket_, "SO_ATTACH_FILTER");
   set(socket_, SOL_SOCKET, SO_REUSEADDR, 1, "SO_REUSEADDR");
-  set(socket_, SOL_SOCKET, SO_RCVBUF, kBuffer, "SO_RCVBUF");
+  // Who may, gets it; who may not, what net.core.rmem_max allows.
+  if (setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &kBuffer, sizeof kBuffer) != 0)
+    set(socket_, SOL_SOCKET, SO_RCVBUF, kBuffer, "SO_RCVBUF");
   if (times == Times::of_receipt) set(socket_, SOL_SOCKET, SO_TIMESTAMP, 1, "SO_TIMESTAMP");
   sockaddr_in address{};
   address.sin_family = AF_INET;
