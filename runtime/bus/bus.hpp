@@ -24,11 +24,12 @@ enum class Wake : std::uint8_t {
   stop,      ///< the stop switch is turned
 };
 
-/// A connection to the LCM bus. One thread uses it; LCM's own thread receives behind it.
+/// A connection to the LCM bus. One thread uses it: liblcm sends, and the thread that waits reads what was
+/// received (receiver.hpp).
 ///
-/// The first subscription joins the multicast group. From then on the kernel drops, before LCM's thread is
-/// woken, every datagram that isn't a short LCM message on a subscribed channel (see channel_filter.hpp);
-/// messages beyond 64 kB, which LCM sends in fragments, are not received.
+/// The first subscription joins the multicast group. The kernel drops every datagram that isn't a short LCM
+/// message on a subscribed channel (channel_filter.hpp) from before that on; messages beyond 64 kB, which LCM
+/// sends in fragments, are not received.
 class Bus {
  public:
   /// Throws RunFault `no_multicast_route`, with the commands that mend it, or `bus`.
@@ -46,7 +47,7 @@ class Bus {
   std::uint64_t failed_sends() const { return failed_sends_; }
 
   /// Calls `handler(context, bytes)`, from wait(), for every message on the channel. The handler must not
-  /// throw: it is called through C.
+  /// throw.
   using Handler = void (*)(void* context, Bytes bytes);
   void subscribe(const std::string& channel, Handler handler, void* context);
 

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/bus/channel_filter.hpp"
 
-#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
 
 namespace mixloop {
 namespace {
 
-constexpr std::uint32_t kUdpHeader = 8;              // the program sees the packet from its UDP header on
-constexpr std::uint32_t kLcmHeader = 8;              // magic and sequence number
-constexpr std::uint32_t kShortMessage = 0x4c433032;  // "LC02"
+constexpr std::uint32_t kUdpHeader = 8;  // the program sees the packet from its UDP header on
+constexpr std::uint32_t kLcmHeader = 8;  // magic and sequence number
 constexpr std::uint32_t kKeepAll = 0xffffffff, kDrop = 0;
 
 constexpr std::uint16_t load(std::size_t width) {
@@ -60,21 +56,13 @@ std::vector<sock_filter> channel_filter(std::span<const std::string> channels) {
   return program;
 }
 
-std::vector<int> sockets_on_port(int port) {
-  std::vector<int> sockets;
-  std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", failed)) {
-    const int fd = std::stoi(entry.path().filename());
-    int type = 0;
-    socklen_t length = sizeof type;
-    if (getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &length) != 0 || type != SOCK_DGRAM) continue;
-    sockaddr_in address{};
-    length = sizeof address;
-    if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &length) != 0) continue;
-    if (address.sin_family == AF_INET && ntohs(address.sin_port) == port) sockets.push_back(fd);
-  }
-  std::sort(sockets.begin(), sockets.end());
-  return sockets;
+std::vector<sock_filter> short_message_filter() {
+  return {
+      BPF_STMT(BPF_LD | BPF_ABS | BPF_W, kUdpHeader),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kShortMessage, 1, 0),
+      BPF_STMT(BPF_RET | BPF_K, kDrop),
+      BPF_STMT(BPF_RET | BPF_K, kKeepAll),
+  };
 }
 
 bool attach(int socket, std::span<const sock_filter> program) {

@@ -3,99 +3,104 @@
 
 #include <fmt/format.h>
 #include <lcm/eventlog.h>
-#include <lcm/lcm.h>
 #include <poll.h>
 
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <thread>
 
 #include "notation/errors.hpp"
+#include "runtime/bus/backlog.hpp"
+#include "runtime/bus/channel_filter.hpp"
+#include "runtime/bus/receiver.hpp"
 
 namespace mixloop {
-
+/// One thread hears, so that no message waits for the disk; another writes.
 struct LogWriter::Recording {
-  lcm_t* lcm = nullptr;
-  lcm_eventlog_t* log = nullptr;
-  std::string file, state_channel;
-  std::atomic<bool> over{false};
-  LogSummary summary;
-  std::int64_t latest_tick = -1;
-  std::int64_t session = 0;
-  int failed = 0;  ///< the errno of the first event that could not be written
-  std::thread thread;
-
+  explicit Recording(const BusOptions& bus, const std::filesystem::path& path)
+      : file(path.string()),
+        prefix(bus.prefix),
+        state_channel(bus.prefix + "STATE"),
+        receiver(multicast_group(bus.url), short_message_filter(), Receiver::Times::of_receipt),
+        log(lcm_eventlog_create(file.c_str(), "w")) {
+    if (!log) throw RunFault("cannot_write", "cannot write the log " + file);
+    writing = std::thread([this] { write_all(); });
+    hearing = std::thread([this] { hear_all(); });
+  }
   ~Recording() {
-    over = true;
-    if (thread.joinable()) thread.join();
+    finish();
     if (log) lcm_eventlog_destroy(log);
-    if (lcm) lcm_destroy(lcm);
   }
 
-  static void on_message(const lcm_recv_buf_t* received, const char* channel, void* self) {
-    static_cast<Recording*>(self)->write(*received, channel);
+  void finish() {
+    over = true;
+    if (hearing.joinable()) hearing.join();
+    if (writing.joinable()) writing.join();
   }
 
-  void write(const lcm_recv_buf_t& received, const char* channel) {
+  void hear_all() {
+    while (!over) hear(50);
+    while (hear(20)) {
+    }
+    backlog.close();
+  }
+
+  bool hear(int timeout_ms) {
+    pollfd fd{receiver.fd(), POLLIN, 0};
+    if (poll(&fd, 1, timeout_ms) <= 0) return false;
+    while (const Received* message = receiver.next())
+      if (message->channel.starts_with(prefix)) backlog.push(*message);
+    return true;
+  }
+
+  void write_all() {
+    for (Kept message; backlog.pop(message);) write(message);
+  }
+
+  void write(Kept& message) {
     lcm_eventlog_event_t event{};
     event.eventnum = summary.events++;
-    event.timestamp = received.recv_utime;
-    event.channellen = static_cast<int32_t>(std::char_traits<char>::length(channel));
-    event.channel = const_cast<char*>(channel);
-    event.datalen = static_cast<int32_t>(received.data_size);
-    event.data = received.data;
+    event.timestamp = message.at_us;
+    event.channellen = static_cast<int32_t>(message.channel.size());
+    event.channel = message.channel.data();
+    event.datalen = static_cast<int32_t>(message.data.size());
+    event.data = message.data.data();
     if (!failed && lcm_eventlog_write_event(log, &event) != 0) failed = errno;
-    if (state_channel == channel)
-      count_gap({static_cast<const std::uint8_t*>(received.data), received.data_size});
+    if (message.channel == state_channel) count_gap(message.data);
   }
 
   void count_gap(Bytes state) {
     const auto header = peek(state);
     if (!header) return;
-    if (header->session != session) session = header->session, latest_tick = -1;
-    if (header->seq > latest_tick) {
-      summary.missing_ticks += header->seq - latest_tick - 1;
-      latest_tick = header->seq;
-    }
+    const auto [known, first] = latest_ticks.emplace(header->session, -1);
+    auto& latest = known->second;
+    if (header->seq <= latest) return;
+    summary.missing_ticks += header->seq - latest - 1;
+    latest = header->seq;
   }
 
-  void record() {
-    while (!over) drain(50);
-    while (drain(20)) {
-    }
-  }
-
-  bool drain(int timeout_ms) {
-    pollfd fd{lcm_get_fileno(lcm), POLLIN, 0};
-    if (poll(&fd, 1, timeout_ms) <= 0) return false;
-    return lcm_handle(lcm) == 0;
-  }
+  std::string file, prefix, state_channel;
+  Receiver receiver;
+  lcm_eventlog_t* log;
+  Backlog backlog;
+  std::atomic<bool> over{false};
+  LogSummary summary;
+  std::map<std::int64_t, std::int64_t> latest_ticks;  ///< by session
+  int failed = 0;  ///< the errno of the first event that could not be written
+  std::thread writing, hearing;
 };
 
 LogWriter::LogWriter(const BusOptions& bus, const std::filesystem::path& file)
-    : recording_(std::make_unique<Recording>()) {
-  Recording& recording = *recording_;
-  recording.file = file.string();
-  recording.state_channel = bus.prefix + "STATE";
-  recording.log = lcm_eventlog_create(file.c_str(), "w");
-  if (!recording.log) throw RunFault("cannot_write", "cannot write the log " + file.string());
-  recording.lcm = lcm_create(bus.url.c_str());
-  if (!recording.lcm) throw RunFault("bus", "no LCM bus at " + bus.url);
-  auto* subscription =
-      lcm_subscribe(recording.lcm, (bus.prefix + ".*").c_str(), &Recording::on_message, &recording);
-  lcm_subscription_set_queue_capacity(subscription, 100'000);
-  recording.thread = std::thread([&recording] { recording.record(); });
-}
+    : recording_(std::make_unique<Recording>(bus, file)) {}
 
 LogWriter::~LogWriter() = default;
 
 LogSummary LogWriter::finish() {
   Recording& recording = *recording_;
-  recording.over = true;
-  if (recording.thread.joinable()) recording.thread.join();
+  recording.finish();
   if (recording.log && !recording.failed && std::fflush(recording.log->f) != 0) recording.failed = errno;
   if (recording.log) lcm_eventlog_destroy(recording.log);
   recording.log = nullptr;

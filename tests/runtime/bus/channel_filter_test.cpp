@@ -66,10 +66,5 @@ TEST_F(ChannelFilter, DropsWhatIsNoShortMessage) {
   EXPECT_FALSE(passes(fragment));
 }
 
-TEST_F(ChannelFilter, FindsTheSocketOnAPort) {
-  EXPECT_EQ(sockets_on_port(ntohs(to_.sin_port)), std::vector<int>{receiver_});
-  EXPECT_TRUE(sockets_on_port(1).empty());
-}
-
 }  // namespace
 }  // namespace mixloop

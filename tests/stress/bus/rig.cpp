@@ -69,6 +69,11 @@ long BusRig::memory(Part part) const {
   return resident * (sysconf(_SC_PAGESIZE) / 1024);
 }
 
+void BusRig::hear() {
+  while (bus.wait(now(), never_) == Wake::message) {
+  }
+}
+
 bool BusRig::until(const std::function<bool()>& condition, nanoseconds limit) {
   const Instant end = now() + limit;
   Instant look = now() + 100ms;

@@ -39,6 +39,8 @@ class BusRig {
   /// Listens until `condition` holds; false after the limit or once a process has ended by itself.
   bool until(const std::function<bool()>& condition, nanoseconds limit);
   void listen(nanoseconds time);
+  /// Takes what waits.
+  void hear();
 
   /// Resets the plant, and listens until the new session runs: commands of the law past tick 20. A session
   /// that the machine held up for so long at once that it is in its safe state again is reset again.
