@@ -14,8 +14,8 @@ struct RealTimeWishes {
 };
 
 /// Locks and prefaults memory, raises the priority, binds to a core, holds /dev/cpu_dma_latency at 0.
-/// To be called once all threads are there. Returns what is not allowed, a line each, with what that costs and
-/// what mends it.
+/// To be called once all threads are there. Returns what is not allowed, a line each, with what that costs
+/// and what mends it.
 std::vector<std::string> take_real_time_rights(const RealTimeWishes& wishes);
 
 }  // namespace mixloop
