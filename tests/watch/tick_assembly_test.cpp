@@ -20,7 +20,9 @@ constexpr auto kWhole = [](const HeardTick& tick) { return tick.get<state_t>() &
 template <class Message>
 Message message(std::int64_t tick, std::int64_t session = kAssembledSession) {
   Message m = blank<Message>(1);
-  set_header(m, {.n = 1, .utime = 1000 * tick, .seq = tick, .session = session, .config = 5});
+  const auto utime =
+      static_cast<std::int64_t>(1000 * static_cast<std::uint64_t>(tick));  // of hostile ticks too
+  set_header(m, {.n = 1, .utime = utime, .seq = tick, .session = session, .config = 5});
   return m;
 }
 
