@@ -14,7 +14,6 @@ namespace mixloop {
 namespace {
 
 constexpr std::int64_t kMostPoses = 48;
-constexpr int kMostSubsteps = 256;
 constexpr double kOwnMotion =
     1e-3;  // of its amplitude: what of the plant's own motion may be lost within a run
 

@@ -113,9 +113,9 @@ std::vector<std::string> review(const Experiment& experiment, const Plan& plan, 
   if (record.ticks_recorded() == 0) return {};
   std::vector<std::string> said;
   PlantProbe probe = probe_of(experiment);
-  if (!step_doubt(experiment, plan))
-    if (const auto met = doubt(experiment, plan, plants_met(probe, record)))
-      said.push_back(met->text + " (a state that the run met)");
+  if (const auto met = doubt(experiment, plan, plants_met(probe, record));
+      met && !step_doubt(experiment, plan))
+    said.push_back(met->text + " (a state that the run met)");
   if (said.empty()) said = choice_warnings(experiment, record);
   for (auto& more : {jump_warnings(experiment, record), singular_warnings(experiment, record)})
     said.insert(said.end(), more.begin(), more.end());

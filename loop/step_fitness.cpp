@@ -14,7 +14,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kMostSubsteps = 256;
 constexpr double kGrowth = 1e-4;          // a tick: less is a matter of accuracy
 constexpr int kOrderEnough = 4;           // of a remedy, where the method in hand has as much
 constexpr double kLinearisationCost = 3;  // of a Jacobian, in evaluations: what a remedy is picked by

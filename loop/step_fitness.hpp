@@ -11,6 +11,9 @@
 
 namespace mixloop {
 
+/// Steps a tick that are tried at most.
+inline constexpr int kMostSubsteps = 256;
+
 /// A plant linearised about one of its states: x' = A x, 2n x 2n, at a time.
 struct LinearPlant {
   double t = 0;  ///< s

@@ -90,6 +90,12 @@ double Actuators::Drive::lagged(const State::Drive& from, double s) const {
   return s > end ? u + (at - u) * std::exp(-(s - end) / lag) : at;
 }
 
+double Actuators::Drive::less_friction(double torque, double psid, double factor) const {
+  torque -= factor * viscous * psid;
+  if (coulomb > 0) torque -= factor * coulomb * std::tanh(psid / smooth);
+  return torque;
+}
+
 void Actuators::take(State& state, std::span<const double> u) {
   for (std::size_t i = 0; i < state.drives.size(); ++i) {
     auto& drive = state.drives[i];
@@ -105,18 +111,12 @@ void Actuators::torque(const State& state, double s, std::span<const double> psi
     const Drive& drive = drives_[i];
     double torque = drive.lagged(state.drives[i], s);
     if (drive.ripple > 0) torque *= 1 + drive.ripple * std::sin(drive.per_turn * psi[i]);
-    torque -= friction * drive.viscous * psid[i];
-    if (drive.coulomb > 0) torque -= friction * drive.coulomb * std::tanh(psid[i] / drive.smooth);
-    tau[i] = torque;
+    tau[i] = drive.less_friction(torque, psid[i], friction);
   }
 }
 
 void Actuators::add_friction(std::span<const double> psid, std::span<double> tau) const {
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const Drive& drive = drives_[i];
-    tau[i] -= drive.viscous * psid[i];
-    if (drive.coulomb > 0) tau[i] -= drive.coulomb * std::tanh(psid[i] / drive.smooth);
-  }
+  for (std::size_t i = 0; i < drives_.size(); ++i) tau[i] = drives_[i].less_friction(tau[i], psid[i], 1);
 }
 
 void Actuators::friction_slopes(std::span<const double> psid, std::span<double> slopes) const {

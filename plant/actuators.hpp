@@ -75,6 +75,7 @@ class Actuators {
     double ramp_time(const State::Drive& at) const;
     double ramp(const State::Drive& from, double s) const;
     double lagged(const State::Drive& from, double s) const;
+    double less_friction(double torque, double psid, double factor) const;
   };
   std::vector<Drive> drives_;
 };

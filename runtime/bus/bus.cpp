@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <list>
 #include <optional>
 #include <vector>
 
@@ -47,7 +46,7 @@ struct Bus::Connection {
   MulticastGroup group;
   lcm_t* lcm = nullptr;
   std::optional<Receiver> receiver;
-  std::list<Subscription> subscriptions;
+  std::vector<Subscription> subscriptions;
 };
 
 std::vector<sock_filter> Bus::Connection::filter() const {

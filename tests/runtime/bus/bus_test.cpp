@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/bus/bus.hpp"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,7 +13,7 @@
 #include <vector>
 
 #include "notation/errors.hpp"
-#include "runtime/bus/multicast_route.hpp"
+#include "tests/runtime/bus/datagram.hpp"
 
 namespace mixloop {
 namespace {
@@ -120,18 +118,6 @@ TEST(StopSwitch, IsTurnedBySigtermAndLetsGoOfIt) {
   StopSwitch again;
   again.turn_on_signals();
   EXPECT_FALSE(again.turned());
-}
-
-// What no LCM sends, straight to the group.
-void send_datagram(const std::string& datagram) {
-  const MulticastGroup group = multicast_group(BusOptions{}.url);
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_port = htons(static_cast<std::uint16_t>(group.port));
-  inet_pton(AF_INET, group.address.c_str(), &to.sin_addr);
-  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
-  sendto(fd, datagram.data(), datagram.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof to);
-  close(fd);
 }
 
 TEST(Bus, SurvivesDatagramsThatAreNoMessages) {

@@ -2,12 +2,9 @@
 // Against liblcm's own publisher, and datagrams that no LCM sends.
 #include "runtime/bus/receiver.hpp"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
 #include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <random>
@@ -16,34 +13,12 @@
 
 #include "runtime/bus/bus.hpp"
 #include "runtime/bus/channel_filter.hpp"
+#include "tests/runtime/bus/datagram.hpp"
 
 namespace mixloop {
 namespace {
 
 const MulticastGroup kGroup = multicast_group(BusOptions{}.url);
-
-/// Sends datagrams as they are.
-class Stranger {
- public:
-  Stranger() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
-    to_.sin_family = AF_INET;
-    to_.sin_port = htons(static_cast<std::uint16_t>(kGroup.port));
-    inet_pton(AF_INET, kGroup.address.c_str(), &to_.sin_addr);
-  }
-  ~Stranger() { close(socket_); }
-  Stranger(const Stranger&) = delete;
-  Stranger& operator=(const Stranger&) = delete;
-
-  void send(const std::string& datagram) {
-    EXPECT_EQ(sendto(socket_, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&to_),
-                     sizeof to_),
-              static_cast<ssize_t>(datagram.size()));
-  }
-
- private:
-  int socket_;
-  sockaddr_in to_{};
-};
 
 const Received* next_within_a_second(Receiver& receiver) {
   pollfd fd{receiver.fd(), POLLIN, 0};
@@ -81,17 +56,16 @@ TEST(Receiver, HearsWhatLiblcmSendsByteForByte) {
 // Two of them would write past liblcm's heap.
 TEST(Receiver, CountsWhatItDropsAndHearsOn) {
   Receiver receiver(kGroup, short_message_filter());
-  Stranger stranger;
   const std::string header("LC02\0\0\0\1", 8);
   std::string fragment("LC03\0\0\0\1\0\0\7\320\377\377\377\300\0\1\0\2", 20);
   fragment.resize(130, 'x');
   for (const std::string& hostile : {std::string(), std::string("LC0"), fragment, fragment})
-    stranger.send(hostile);
-  stranger.send(header);                          // without a channel
-  stranger.send(header + "A");                    // without its end
-  stranger.send(header + std::string(500, 'A'));  // longer than a name can be
-  stranger.send(header + std::string(64, 'A') + std::string(1, '\0'));
-  stranger.send(header + std::string("A\0data", 6));
+    send_datagram(hostile);
+  send_datagram(header);                          // without a channel
+  send_datagram(header + "A");                    // without its end
+  send_datagram(header + std::string(500, 'A'));  // longer than a name can be
+  send_datagram(header + std::string(64, 'A') + std::string(1, '\0'));
+  send_datagram(header + std::string("A\0data", 6));
   const Received* message = next_within_a_second(receiver);
   ASSERT_NE(message, nullptr);
   EXPECT_EQ(message->channel, "A");
@@ -105,8 +79,7 @@ TEST(Receiver, TellsWhenTheKernelGotIt) {
   Receiver receiver(kGroup, short_message_filter(), Receiver::Times::of_receipt);
   timespec before{}, after{};
   clock_gettime(CLOCK_REALTIME, &before);
-  Stranger stranger;
-  stranger.send(std::string("LC02\0\0\0\1A\0", 10));
+  send_datagram(std::string("LC02\0\0\0\1A\0", 10));
   const Received* message = next_within_a_second(receiver);
   clock_gettime(CLOCK_REALTIME, &after);
   ASSERT_NE(message, nullptr);
@@ -118,9 +91,8 @@ TEST(Receiver, TellsWhenTheKernelGotIt) {
 TEST(Receiver, HearsNothingThatItsFilterDoesntKeep) {
   const std::array<std::string, 1> channels = {"B"};
   Receiver receiver(kGroup, channel_filter(channels));
-  Stranger stranger;
-  stranger.send(std::string("LC02\0\0\0\1A\0no", 12));
-  stranger.send(std::string("LC02\0\0\0\1B\0yes", 13));
+  send_datagram(std::string("LC02\0\0\0\1A\0no", 12));
+  send_datagram(std::string("LC02\0\0\0\1B\0yes", 13));
   const Received* message = next_within_a_second(receiver);
   ASSERT_NE(message, nullptr);
   EXPECT_EQ(message->channel, "B");
