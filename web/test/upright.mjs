@@ -8,10 +8,10 @@ const [executable, mixloop, result] = process.argv.slice(2);
 
 /** How far from the middle of the picture the farthest frame is: 1 at its edge. */
 const farthest = () => {
-  const { drawing, pose } = window.mixloop;
-  const { camera } = drawing;
+  const { drawing } = window.mixloop;
+  const { camera, shown } = drawing;
   camera.updateMatrixWorld();
-  const places = drawing.mechanism.frames.map((_, i) => camera.position.clone().set(...pose.frames.slice(7 * i, 7 * i + 3)).project(camera));
+  const places = drawing.mechanism.frames.map((_, i) => camera.position.clone().set(...shown.frames.slice(7 * i, 7 * i + 3)).project(camera));
   return Math.max(...places.flatMap(({ x, y }) => [Math.abs(x), Math.abs(y)]));
 };
 
@@ -32,8 +32,7 @@ try {
       });
       assert.ok(rises > 0, `${from}: what is up is up in the picture`);
     }
-    await tab.waitForFunction(() => window.mixloop.pose.t >= 0.5);
-    await tab.waitForTimeout(300);
+    await tab.waitForFunction(() => window.mixloop.drawing.shown?.t >= 0.5);
     assert.ok((await tab.evaluate(farthest)) <= 1, 'it is followed');
     complaints.splice(0, complaints.length, ...complaints.filter((text) => !/WebSocket|net::ERR_CONNECTION/.test(text)));
   }, webgl);

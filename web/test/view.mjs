@@ -79,6 +79,9 @@ async function past(tab, k, old) {
   );
 }
 
+/** Waits until the newest pose is what is drawn: a browser's frame later than it came. */
+const settled = (tab) => tab.waitForFunction(() => window.mixloop.drawing.shown === window.mixloop.pose);
+
 /** Holds poses against the plant's own memory. */
 function agree(poses, out) {
   const [header, ...lines] = readFileSync(`${out}/trajectory.csv`, 'utf8').trim().split('\n');
@@ -128,6 +131,7 @@ async function live(tab, complaints) {
   assert.equal(await started(mixloop, 'simulate', experiment, ...sets, '--json', '--out', `${folder}/alone`).over, 0);
   assert.equal(sha(`${folder}/first`), sha(`${folder}/alone`), 'the run is the same as without a viewer');
   assert.equal(await tab.textContent('#notes'), '');
+  await settled(tab);
   const { travelled, times } = await tab.evaluate(() => {
     const { trail } = window.mixloop.drawing;
     return { travelled: trail.travelled, times: [...trail.times.slice(0, trail.travelled)] };
@@ -179,10 +183,10 @@ async function standsOut(tab) {
 /** The first solid of the paper's link 2 goes from the shoulder (frame 1) to the elbow (frame 2). */
 async function solidsMove(tab) {
   const { middle, bars, frames } = await tab.evaluate(() => {
-    const { drawing, pose: shown } = window.mixloop;
+    const { drawing } = window.mixloop;
     const solid = drawing.solids[2].children[0];
     solid.updateWorldMatrix(true, false);
-    return { middle: solid.matrixWorld.elements.slice(12, 15), bars: drawing.links[2], frames: shown.frames };
+    return { middle: solid.matrixWorld.elements.slice(12, 15), bars: drawing.links[2], frames: drawing.shown.frames };
   });
   assert.equal(bars, null, 'a solid is drawn in place of the skeleton');
   middle.forEach((x, i) => assert.ok(Math.abs(x - (frames[7 + i] + frames[14 + i]) / 2) < 1e-12, `${x} of axis ${i}`));
@@ -205,15 +209,16 @@ async function log(tab) {
   await tab.keyboard.press('ArrowRight');
   await tab.waitForFunction(() => window.mixloop.pose.k === 1501);
   agree([await pose(tab)], `${folder}/first`);
+  await settled(tab);
   await solidsMove(tab);
   assert.equal(await tab.evaluate(() => window.mixloop.plots.errors.data[0].length), 2001);
   for (const one of ['errors', 'torques'])
     for (const label of await tab.evaluate((name) => window.mixloop.plots[name].axes.map((axis) => axis.label), one)) assert.match(label, /\(.+\)$/);
 
   await standsOut(tab);
+  await tab.waitForFunction(() => !window.mixloop.drawing.changed);
 
   // The camera, by keyboard and by button.
-  await tab.waitForTimeout(200);
   const before = await picture(tab);
   await tab.focus('#canvas');
   await tab.keyboard.press('ArrowLeft');

@@ -165,8 +165,9 @@ export class Drawing {
     this.changed = true;
   }
 
-  /** Moves everything to a pose. */
+  /** Moves everything to a pose: the one `shown` from then on. */
   pose(pose) {
+    this.shown = pose;
     const frames = this.mechanism.frames.map((_, i) => {
       const [x, y, z, qx, qy, qz, qw] = pose.frames.slice(7 * i, 7 * i + 7);
       return { at: new THREE.Vector3(x, y, z), turn: new THREE.Quaternion(qx, qy, qz, qw) };
