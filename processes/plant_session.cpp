@@ -74,6 +74,10 @@ void PlantSession::finish(const RunFault* fault) {
   // One that was stopped is not looked back on, and one that holds on has deadlines to meet.
   if (const bool stopped = !fault && result.run->measures.interrupted_at; !stopped && !line_.hold)
     result.warnings = review(experiment, run_.plan(), run_.recorder());
+  if (const auto rival = describe(bus_->rival, line_.bus.prefix + "COMMAND"); !rival.empty()) {
+    if (!result.warnings) result.warnings.emplace();
+    result.warnings->push_back(rival);
+  }
   result.session = bus_->session;
   result.bus = bus_figures(*bus_);
   if (line_.real_time) add_deadlines(*result.bus, *bus_, run_.deadlines(), experiment.deadline.safe_state);

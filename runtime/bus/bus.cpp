@@ -12,7 +12,6 @@
 #include "notation/errors.hpp"
 #include "runtime/bus/channel_filter.hpp"
 #include "runtime/bus/multicast_route.hpp"
-#include "runtime/bus/receiver.hpp"
 
 namespace mixloop {
 namespace {
@@ -82,7 +81,7 @@ bool Bus::Connection::handle(const Received& message) const {
   bool heard = false;
   for (const Subscription& subscription : subscriptions) {
     if (subscription.channel != message.channel) continue;
-    subscription.handler(subscription.context, message.data);
+    subscription.handler(subscription.context, message);
     heard = true;
   }
   return heard;
@@ -110,6 +109,11 @@ void Bus::unsubscribe(const std::string& channel) {
   if (found == c.subscriptions.end()) return;
   c.subscriptions.erase(found);
   c.listen();
+}
+
+std::uint64_t Bus::dropped() const {
+  const auto& receiver = connection_->receiver;
+  return receiver ? receiver->dropped_by_kernel() + receiver->malformed() : 0;
 }
 
 Wake Bus::wait(Instant deadline, const StopSwitch& stop) {

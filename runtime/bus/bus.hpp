@@ -5,8 +5,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
-#include "runtime/bus/wire.hpp"
+#include "runtime/bus/receiver.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/stop_switch.hpp"
 
@@ -45,17 +46,28 @@ class Bus {
   /// Doesn't allocate.
   void publish(const std::string& channel, Bytes bytes);
   std::uint64_t failed_sends() const { return failed_sends_; }
+  /// Datagrams that came and were dropped: by the kernel (on other channels, in fragments, or because too
+  /// many waited), or as no message.
+  std::uint64_t dropped() const;
 
-  /// Calls `handler(context, bytes)`, from wait(), for every message on the channel. The handler must not
+  /// Calls `handler(context, message)`, from wait(), for every message on the channel. The handler must not
   /// throw.
-  using Handler = void (*)(void* context, Bytes bytes);
+  using Handler = void (*)(void* context, const Received& message);
   void subscribe(const std::string& channel, Handler handler, void* context);
 
-  /// As above, for a member function: `bus.subscribe<&Peer::on_state>(channel, this)`.
+  /// As above, for a member function that takes the message or its bytes:
+  /// `bus.subscribe<&Peer::on_state>(channel, this)`.
   template <auto Method, class Object>
   void subscribe(const std::string& channel, Object* object) {
     subscribe(
-        channel, [](void* context, Bytes bytes) { (static_cast<Object*>(context)->*Method)(bytes); }, object);
+        channel,
+        [](void* context, const Received& message) {
+          if constexpr (std::is_invocable_v<decltype(Method), Object&, const Received&>)
+            (static_cast<Object*>(context)->*Method)(message);
+          else
+            (static_cast<Object*>(context)->*Method)(message.data);
+        },
+        object);
   }
 
   /// Takes a subscription back; nothing happens where there is none. Not from within a handler.

@@ -70,7 +70,10 @@ const Received* Receiver::next() {
   for (;;) {
     iovec place{datagram_.get(), kLargest};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timeval))> control;
+    sockaddr_in sender{};
     msghdr header{};
+    header.msg_name = &sender;
+    header.msg_namelen = sizeof sender;
     header.msg_iov = &place;
     header.msg_iovlen = 1;
     header.msg_control = control.data();
@@ -83,6 +86,7 @@ const Received* Receiver::next() {
       ++malformed_;
       continue;
     }
+    message_.sender = {.address = ntohl(sender.sin_addr.s_addr), .port = ntohs(sender.sin_port)};
     message_.at_us = 0;
     for (const cmsghdr* part = CMSG_FIRSTHDR(&header); part;
          part = CMSG_NXTHDR(&header, const_cast<cmsghdr*>(part)))

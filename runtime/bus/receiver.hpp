@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/bus/endpoint.hpp"
 #include "runtime/bus/multicast_route.hpp"
 #include "runtime/bus/wire.hpp"
 
@@ -17,6 +18,7 @@ namespace mixloop {
 /// A short message of LCM's UDP multicast format, as it came.
 struct Received {
   std::int64_t at_us = 0;  ///< when the kernel received it, us since 1970; 0 unless it is asked for that
+  Endpoint sender;
   std::string_view channel;
   Bytes data;
 };

@@ -82,7 +82,7 @@ TEST(Bus, KeepsItsDeadline) {
   Bus bus;
   const StopSwitch never;
   bus.subscribe(
-      "A", [](void*, Bytes) {}, nullptr);
+      "A", [](void*, const Received&) {}, nullptr);
   const Instant before = now();
   EXPECT_EQ(bus.wait(before + 3ms, never), Wake::deadline);
   EXPECT_GE(now() - before, 3ms);
@@ -93,7 +93,7 @@ TEST(Bus, WakesWhenTheSwitchIsTurned) {
   Bus bus;
   StopSwitch stop;
   bus.subscribe(
-      "A", [](void*, Bytes) {}, nullptr);
+      "A", [](void*, const Received&) {}, nullptr);
   std::thread turner([&] {
     std::this_thread::sleep_for(10ms);
     stop.turn();
