@@ -7,12 +7,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <optional>
 
 #include "commands/awaited.hpp"
 #include "commands/children.hpp"
+#include "commands/overheard.hpp"
 #include "commands/warnings.hpp"
 #include "loop/inputs.hpp"
 #include "loop/recorded_plant.hpp"
@@ -34,6 +36,8 @@ using namespace std::chrono_literals;
 /// recorded takes as long as it takes.
 constexpr auto kGrace = 3s;
 
+nanoseconds in_nanoseconds(double seconds) { return nanoseconds(std::llround(1e9 * seconds)); }
+
 /// A run of the processes: their pipes, their ends, and what the plant reports.
 class Run {
  public:
@@ -48,6 +52,9 @@ class Run {
     // A stranger's plant draws its own, and the others take that.
     const std::int64_t session = absent("plant") ? 0 : draw_session();
     if (!launch.without.empty() && !launch.quiet) awaited_.emplace(launch, session);
+    if (absent("plant"))
+      overheard_.emplace(experiment, launch.bus, in_nanoseconds(launch.first_wait),
+                         in_nanoseconds(launch.patience));
     children_.reserve(launch.order.size());
     for (const auto& name : launch.order)
       if (!absent(name))
@@ -95,6 +102,8 @@ class Run {
                                       std::string(name_of(launch_.evaluation))};
     for (const auto& set : launch_.sets) words.insert(words.end(), {"--set", set});
     if (launch_.real_time) words.emplace_back("--realtime");
+    // The planner is a tick ahead: nobody waits for it.
+    if (launch_.spin && name != "planner") words.emplace_back("--spin");
     if (name != "plant") return words;
     if (launch_.paused) words.emplace_back("--paused");
     if (launch_.hold) words.emplace_back("--hold");
@@ -193,6 +202,7 @@ class Run {
 
   Result verdict() {
     if (first_failure_) throw_failure(*first_failure_);
+    if (overheard_) return overheard_->finish();
     if (stopped_ && !result_)
       return {.judged = {.verdict = Verdict::interrupted, .exit_status = kInterrupted}};
     for (const auto& child : children_)
@@ -219,6 +229,7 @@ class Run {
   const std::function<void(const Result&)>& at_end_;
   Progress progress_;
   std::optional<Awaited> awaited_;
+  std::optional<Overheard> overheard_;  ///< a stranger's plant
   std::vector<Child> children_;
   int report_ = -1;
   bool reported_all_ = false;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <thread>
 
 #include "commands/commands.hpp"
 #include "commands/launched.hpp"
@@ -33,6 +34,11 @@ int run(RunLine& options) {
     const double speed = speed_of(launch.speed);
     if (launch.real_time) require_real_time_speed(speed);
   }
+  if (const auto cores = std::thread::hardware_concurrency(); launch.spin && cores < 3)
+    fmt::print(
+        stderr,
+        "mixloop: --spin keeps two cores busy, and there are {}: who waits awake takes the others' time\n",
+        cores);
   Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
   experiment.evaluation = launch.evaluation;
   const auto print = [&](const Result& result) {
@@ -81,6 +87,9 @@ void add_run_command(CLI::App& app, int& status) {
       ->add_option("--speed", launch.speed,
                    "plant seconds a real second, or max: as fast as it goes. In lockstep max, in real time 1")
       ->type_name("X");
+  command->add_flag(
+      "--spin", launch.spin,
+      "plant and controller wait awake: no wake-ups on their way, for two cores and one to spare");
   command->add_flag("--paused", launch.paused, "begin paused, at tick 0; mixloop control goes on from there");
   command->add_flag("--hold", launch.hold, "go on holding the end point until Ctrl-C");
   command->add_flag("--truth", launch.truth, "publish TRUTH, which no controller may read");

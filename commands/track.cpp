@@ -51,7 +51,7 @@ Result tracked(const std::string& file, const TrackLine& options, const StopSwit
   Experiment experiment = load_experiment(std::filesystem::path(file), options.overrides());
   experiment.evaluation = options.evaluation;
   const auto patience = nanoseconds(static_cast<std::int64_t>(options.patience * 1e9));
-  if (options.attach) return attached(experiment, options.bus, patience, stop);
+  if (options.attach) return attached(experiment, options.bus, patience, patience, stop);
   if (!options.over_bus) return simulated(experiment, "", stop, true);
   Launch launch;
   launch.experiment = file;

@@ -83,6 +83,7 @@ struct BusFigures {
   double slipped = 0;
   std::uint64_t rejected = 0;
   std::map<std::string, std::uint64_t> rejected_by_cause;
+  std::uint64_t refused_faults = 0;
   std::uint64_t dropped = 0;  ///< datagrams at the plant's socket that the kernel kept from it, or no message
   bool joined_late = false;
 };

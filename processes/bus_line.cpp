@@ -47,6 +47,9 @@ void add_peer_options(CLI::App& command, PeerLine& line) {
   command.add_option("--cpu", line.wishes.cpu, "in real time, the core to stay on")
       ->type_name("CORE")
       ->check(CLI::Range(0, 1023));
+  command.add_flag(
+      "--spin", line.bus.spin,
+      "wait awake, never asleep: saves the wake-up's microseconds and takes a core of its own (--cpu)");
   add_evaluation_option(command, line.evaluation);
 }
 

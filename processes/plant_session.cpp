@@ -28,8 +28,9 @@ template <class Runner, class Hardware>
 Ending PlantSession::run_as(Bus& bus, const StopSwitch& stop, std::int64_t session,
                             std::int64_t next_session) {
   Hardware hardware(run_, [this](std::int64_t k) { return goes_on(k); });
-  Runner runner(bus, stop, plant_options(line_, run_.experiment(), run_.plan().ticks(), session), hardware);
-  hardware.listen(bus, line_.allow_faults, runner.report());
+  const PlantOptions options = plant_options(line_, run_.experiment(), run_.plan().ticks(), session);
+  Runner runner(bus, stop, options, hardware);
+  hardware.listen(bus, line_.allow_faults, options.config, runner.report());
   line_.take_rights("mixloop-plant", true);
   return drive(runner, next_session);
 }

@@ -192,6 +192,7 @@ void fields(const Way& f, B& bus) {
   f("slipped", bus.slipped);
   f("rejected", bus.rejected);
   f("rejected_by_cause", bus.rejected_by_cause);
+  f("refused_faults", bus.refused_faults);
   f("dropped", bus.dropped);
   f("joined_late", bus.joined_late);
 }

@@ -16,6 +16,7 @@ namespace mixloop {
 struct BusOptions {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
   std::string prefix = "MIXLOOP_";  ///< of every channel's name
+  bool spin = false;                ///< wait awake: for who has a core of its own
 };
 
 /// What a wait ended with.
@@ -73,12 +74,18 @@ class Bus {
   /// Takes a subscription back; nothing happens where there is none. Not from within a handler.
   void unsubscribe(const std::string& channel);
 
-  /// Waits for one message, until `deadline`, with the kernel's nanosecond timeouts. A message that is
-  /// there is handled even where the deadline is over; a turned switch goes first.
+  /// Waits for one message, until `deadline`, with the kernel's nanosecond timeouts, or awake where the
+  /// options say so. A message that is there is handled even where the deadline is over; a turned switch goes
+  /// first.
   Wake wait(Instant deadline, const StopSwitch& stop);
+  /// Waits for an instant in the same way; messages wait too. May return early where a signal was handled.
+  void wait_out(Instant due, const StopSwitch& stop) const;
 
  private:
   struct Connection;
+
+  Wake wait_awake(Instant deadline, const StopSwitch& stop);
+  bool take();
 
   BusOptions options_;
   std::unique_ptr<Connection> connection_;

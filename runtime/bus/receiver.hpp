@@ -23,10 +23,13 @@ struct Received {
   Bytes data;
 };
 
-/// Hears a multicast group: short messages ("LC02": magic, sequence number, the channel's name and its end,
-/// data), each a datagram, every length checked. Long ones, which LCM sends in fragments ("LC03"), are none
-/// of ours: LCM 1.3.1 puts them together with an offset that wraps. The thread that waits for fd() reads them
-/// itself.
+/// Whether a datagram is a short message ("LC02": magic, sequence number, the channel's name and its end,
+/// data); where its parts are. Every length is checked.
+bool read_short_message(Bytes datagram, Received& message);
+
+/// Hears a multicast group: short messages, each a datagram. Long ones, which LCM sends in fragments
+/// ("LC03"), are none of ours: LCM 1.3.1 puts them together with an offset that wraps. The thread that waits
+/// for fd() reads them itself.
 class Receiver {
  public:
   enum class Times : bool { unknown, of_receipt };
@@ -54,8 +57,6 @@ class Receiver {
   std::uint64_t dropped_by_kernel() const;
 
  private:
-  bool read(std::size_t size);
-
   static constexpr std::size_t kLargest = 65536;  ///< no datagram is larger
 
   int socket_;

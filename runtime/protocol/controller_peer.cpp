@@ -217,13 +217,15 @@ std::optional<Reject> ControllerPeer::check_reference(const Received& message) {
   const reference_t& heard = inbox_.message;
   if (const auto cause = link_.check_origin(heard.session, heard.config)) return cause;
   if (heard.seq < 0) return Reject::tick;
+  const bool of_this_session = heard.session == link_.state().session;
+  const bool is_newest = heard.session == taken_.session && heard.seq == taken_.seq;
+  if (of_this_session && heard.seq <= answered_ && !is_newest) return Reject::stale;
   if (!planner_.admits(message.sender, now())) {
     planner_.refuse(message.sender, heard.seq);
     return Reject::sender;
   }
-  if (heard.session == taken_.session && heard.seq == taken_.seq && planner_.contradicts(message, heard.seq))
-    return Reject::sender;
-  if (heard.session == link_.state().session && heard.seq <= answered_) return Reject::stale;
+  if (is_newest && planner_.contradicts(message, heard.seq)) return Reject::sender;
+  if (of_this_session && heard.seq <= answered_) return Reject::stale;
   if (heard.seq >= std::max<std::int64_t>(link_.latest(), 0) + kAhead) return Reject::tick;
   const Kept& slot = kept(heard.seq);
   if (slot.tick == heard.seq && slot.message.session == heard.session) return Reject::stale;

@@ -105,7 +105,6 @@ void PlantLink::on_state(const Received& message) {
   deadline_ = at + options_.patience;
   dropped_.forget();
   const bool first = session_.follow(heard.session, message, at);
-  if (!first && heard.seq < latest()) return report.rejects.count(Reject::stale);
   if (!first && heard.seq == latest()) {
     heard_ = Event::repeated;
     return;
@@ -133,12 +132,14 @@ std::optional<Reject> PlantLink::check_state(const Received& message) {
   if (heard.seq < 0 || heard.seq > kFarthestTick || (heard.seq > options_.last_tick && !holds(heard)))
     return Reject::tick;
   SoleSender& plant = session_.plant();
+  const bool followed = plant.heard() && heard.session == report.session;
+  const bool of_plant = session_.is_the_plants(message.sender);
+  if (followed && heard.seq < latest() && (of_plant || !plant.silent(at))) return Reject::stale;
   if (!session_.would_follow(heard.session, message.sender, at)) {
     plant.refuse(message.sender, heard.seq);
     return Reject::sender;
   }
-  if (heard.session == report.session && heard.seq == latest() && session_.is_the_plants(message.sender) &&
-      plant.contradicts(message, heard.seq))
+  if (followed && of_plant && heard.seq == latest() && plant.contradicts(message, heard.seq))
     return Reject::sender;
   return std::nullopt;
 }

@@ -179,7 +179,7 @@ PlantPort::Answer PlantPort::wait_for_due(std::int64_t tick) {
         answer != Answer::due && answer != Answer::command)
       return answer;
   if (const Answer answer = asked(); answer != Answer::due) return answer;
-  while (now() < due && !stop_.turned()) sleep_until(due);
+  while (now() < due && !stop_.turned()) bus_.wait_out(due, stop_);
   return began(tick);
 }
 
@@ -281,6 +281,7 @@ std::optional<Reject> PlantPort::check_command(const Received& message) {
   if (command.session != options_.session) return Reject::session;
   if (command.config != options_.config) return Reject::config;
   if (command.seq > tick_) return Reject::tick;
+  if (command.seq < oldest_ && command.seq != taken_) return Reject::stale;
   if (!controller_.admits(message.sender, now())) {
     controller_.refuse(message.sender, command.seq);
     return Reject::sender;
@@ -304,7 +305,12 @@ void PlantPort::on_state(const Received& message) {
 }
 
 void PlantPort::on_control(Bytes bytes) {
-  if (const auto cause = conductor_.hear(bytes)) report.rejects.count(*cause);
+  const auto cause = conductor_.hear(bytes);
+  if (!cause) return;
+  report.rejects.count(*cause);
+  const char* reason = conductor_.objection();
+  if (reason != nullptr && options_.notice && !std::exchange(speed_told_, true))
+    options_.notice(std::string("SIM_CONTROL asks for a speed that can't be: ") + reason);
 }
 
 }  // namespace mixloop

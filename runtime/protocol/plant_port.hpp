@@ -110,7 +110,7 @@ class PlantPort {
   Dropped dropped_;  // COMMANDs since the latest STATE was first sent
   SoleSender controller_;
   std::optional<std::int64_t> taken_;  // tick of the command taken last, but for a safe one
-  bool rival_told_ = false;
+  bool rival_told_ = false, speed_told_ = false;
   DeadlineCounts deadlines_;
 };
 
