@@ -2,6 +2,7 @@
 #include "dynamics/program/shared_object.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <fstream>
 
@@ -56,17 +57,19 @@ SharedObject SharedObject::cached(const std::string& key, const std::function<st
     complaint = "no C++ compiler (c++, g++, clang++, $CXX)";
     return result;
   }
-  const auto directory = cache_directory();
-  if (!directory) {
-    complaint = "no private cache directory ($MIXLOOP_CACHE)";
-    return result;
-  }
+  const auto directory = cache_directory(complaint);
+  if (!directory) return result;
   const CacheEntry entry(*directory, entry_key(key, *compiler));
-  if (!entry.is_sound()) {
+  result.file_ = entry.sound();
+  if (!result.file_) {
     const std::string text = source();
     if (text.empty() || !build(entry, *directory, *compiler, text, complaint)) return result;
+    result.file_ = entry.sound();
+    if (!result.file_) complaint = "cannot read back " + entry.path().string();
+    if (!result.file_) return result;
   }
-  result.library_.reset(::dlopen(entry.path().c_str(), RTLD_NOW | RTLD_LOCAL));
+  result.library_.reset(
+      ::dlopen(fmt::format("/proc/self/fd/{}", result.file_.get()).c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!result) complaint = ::dlerror();
   return result;
 }

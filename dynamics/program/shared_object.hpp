@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "dynamics/program/descriptor.hpp"
+
 namespace mixloop {
 
 /// A loaded library of emitted code.
@@ -24,6 +26,7 @@ class SharedObject {
   struct Close {
     void operator()(void* library) const;
   };
+  Descriptor file_;  ///< open as long as the library is loaded: its name there is the descriptor's number
   std::unique_ptr<void, Close> library_;
 };
 
