@@ -16,6 +16,8 @@ namespace {
 // The hash of the sources that write programs: a changed generator finds no entry of the old one's.
 constexpr const char* kGenerator = MIXLOOP_GENERATOR_HASH;
 
+constexpr const char* kNoCompiler = "no C++ compiler (c++, g++, clang++, $CXX)";
+
 std::string entry_key(const std::string& key, const Compiler& compiler) {
   Sha256 hash;
   const auto part = [&](const std::string& text) { hash.add(std::to_string(text.size()) + ":" + text); };
@@ -49,12 +51,19 @@ void SharedObject::Close::operator()(void* library) const { ::dlclose(library); 
 
 void* SharedObject::symbol(const std::string& name) const { return ::dlsym(library_.get(), name.c_str()); }
 
+std::string SharedObject::hindrance() {
+  if (!find_compiler()) return kNoCompiler;
+  std::string complaint;
+  cache_directory(complaint);
+  return complaint;
+}
+
 SharedObject SharedObject::cached(const std::string& key, const std::function<std::string()>& source,
                                   std::string& complaint) {
   SharedObject result;
   const auto compiler = find_compiler();
   if (!compiler) {
-    complaint = "no C++ compiler (c++, g++, clang++, $CXX)";
+    complaint = kNoCompiler;
     return result;
   }
   const auto directory = cache_directory(complaint);

@@ -18,6 +18,9 @@ class SharedObject {
   static SharedObject cached(const std::string& key, const std::function<std::string()>& source,
                              std::string& complaint);
 
+  /// Why none can be had here, whatever it is: no compiler, no private cache; empty where it can.
+  static std::string hindrance();
+
   explicit operator bool() const { return library_ != nullptr; }
   /// The address of an exported symbol; nullptr if there is none.
   void* symbol(const std::string& name) const;
