@@ -8,6 +8,7 @@
 #include <cctype>
 
 #include "commands/children.hpp"
+#include "notation/utf8.hpp"
 
 namespace mixloop {
 namespace {
@@ -45,7 +46,7 @@ std::string command_of(const Launch& launch, const std::string& process) {
   if (launch.real_time) words.emplace_back("--realtime");
   std::string line;
   for (const auto& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
-  return line;
+  return printable_name(line);
 }
 
 double seconds_since(Instant start) { return std::chrono::duration<double>(now() - start).count(); }

@@ -65,6 +65,7 @@ class Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
+  /// Throws RunFault for a process that failed; then the plant's result, if it told one, is `told()`.
   Result wait() {
     while (
         std::any_of(children_.begin(), children_.end(), [](const Child& child) { return child.running(); })) {
@@ -80,6 +81,8 @@ class Run {
     return verdict();
   }
 
+  const std::optional<Result>& told() const { return result_; }
+
  private:
   bool absent(const std::string& name) const {
     return std::find(launch_.without.begin(), launch_.without.end(), name) != launch_.without.end();
@@ -88,6 +91,8 @@ class Run {
   std::vector<std::string> command(const std::string& name, std::int64_t session, int report) const {
     std::vector<std::string> words = {own_folder() + "/mixloop-" + name,
                                       launch_.experiment,
+                                      "--parent",
+                                      std::to_string(getpid()),
                                       "--session",
                                       std::to_string(session),
                                       "--lcm-url",
@@ -243,6 +248,16 @@ class Run {
   std::optional<Instant> deadline_;
 };
 
+/// What is kept of a run whose processes failed says so too.
+Result waited_for(Run& run, const Launch& launch) {
+  try {
+    return run.wait();
+  } catch (const RunFault& fault) {
+    if (run.told() && !launch.out.empty()) keep_result(launch.out, failed(*run.told(), fault));
+    throw;
+  }
+}
+
 }  // namespace
 
 Result launched(const Experiment& experiment, const Launch& launch, const StopSwitch& stop,
@@ -267,7 +282,7 @@ Result launched(const Experiment& experiment, const Launch& launch, const StopSw
   std::optional<LogWriter> log;
   if (!launch.out.empty()) log.emplace(launch.bus, std::filesystem::path(launch.out) / "run.lcmlog");
   Run run(experiment, launch, stop, at_end, plan.ticks());
-  Result result = run.wait();
+  Result result = waited_for(run, launch);
   if (result.warnings) {  // the plant's own, of the run that it had
     say(*result.warnings, launch.quiet);
     warnings.insert(warnings.end(), result.warnings->begin(), result.warnings->end());

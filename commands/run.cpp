@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/launched.hpp"
+#include "notation/utf8.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
@@ -44,7 +45,7 @@ int run(RunLine& options) {
   const auto print = [&](const Result& result) {
     if (options.json) return;
     fmt::print("{}{}", summary(experiment, result), bus_summary(result));
-    if (!launch.out.empty()) fmt::print("  kept in {}\n", launch.out);
+    if (!launch.out.empty()) fmt::print("  kept in {}\n", printable_name(launch.out));
     flush_standard_output();
   };
   bool printed = false;

@@ -12,6 +12,7 @@
 #include "commands/simulated.hpp"
 #include "notation/long_work.hpp"
 #include "notation/number_text.hpp"
+#include "notation/utf8.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/result_json.hpp"
 #include "processes/standard_output.hpp"
@@ -66,7 +67,7 @@ Result tracked(const std::string& file, const TrackLine& options, const StopSwit
 Result tracked_or_error(const std::string& file, const TrackLine& options, const StopSwitch& stop) {
   const auto error = [&](const std::string& code, const std::string& message, const Place& place,
                          int status) -> Result {
-    return {.experiment = std::filesystem::path(file).stem().string(),
+    return {.experiment = printable_name(std::filesystem::path(file).stem().string()),
             .judged = {.verdict = status == kInterrupted ? Verdict::interrupted : Verdict::fault,
                        .exit_status = status},
             .error = {{.code = code, .message = message, .where = to_string(place)}}};

@@ -9,6 +9,7 @@
 #include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "notation/formula.hpp"
+#include "notation/utf8.hpp"
 #include "notation/value.hpp"
 #include "plant/hardware.hpp"
 
@@ -173,7 +174,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
                      {"scene", "rate", "path", "controller", "plant", "real_time", "parameters", "limits",
                       "expect", "faults", "seed"});
   experiment.file = file;
-  experiment.name = file.stem().string();
+  experiment.name = printable_name(file.stem().string());
   const auto base = file.parent_path();
   experiment.scene_document = scene_document_at(*root.at("scene"), base, overrides);
   experiment.scene = std::make_shared<const Scene>(load_scene(experiment.scene_document));

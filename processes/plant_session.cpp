@@ -69,9 +69,9 @@ void PlantSession::finish(const RunFault* fault) {
   finished_ = true;
   const Uninterrupted whole;  // what there is is told and kept
   const Experiment& experiment = run_.experiment();
-  Result result =
-      result_of(experiment, run_.recorder().measures(), line_.real_time ? "real_time" : "lockstep",
-                std::chrono::duration<double>(bus_->wall_time).count());
+  Result result = result_of(experiment, run_.recorder().measures(),
+                            line_.real_time ? "real_time" : "lockstep", run_.plant().equations().evaluation(),
+                            std::chrono::duration<double>(bus_->wall_time).count());
   // One that was stopped is not looked back on, and one that holds on has deadlines to meet.
   if (const bool stopped = !fault && result.run->measures.interrupted_at; !stopped && !line_.hold)
     result.warnings = review(experiment, run_.plan(), run_.recorder());
@@ -82,11 +82,7 @@ void PlantSession::finish(const RunFault* fault) {
   result.session = bus_->session;
   result.bus = bus_figures(*bus_);
   if (line_.real_time) add_deadlines(*result.bus, *bus_, run_.deadlines(), experiment.deadline.safe_state);
-  if (fault) {
-    result.judged.verdict = Verdict::fault;
-    result.judged.exit_status = kRunFault;
-    result.error = {.code = fault->code, .message = fault->what()};
-  }
+  if (fault) result = failed(std::move(result), *fault);
   status_ = result.judged.exit_status;
   if (!line_.out.empty()) {
     report_.keeping();

@@ -230,6 +230,10 @@ void fields(const Way& f, R& result) {
 
 }  // namespace
 
+std::string json_text(const nlohmann::json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 nlohmann::json json_of(const Result& result) {
   auto out = nlohmann::json::object();
   const Keys f(out);

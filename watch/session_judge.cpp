@@ -74,7 +74,7 @@ Result SessionJudge::finish(bool interrupted, double wall_time) {
   Measures measures = recorder_.measures();
   const std::int64_t missing = plan_.ticks() + 1 - complete_;
   if (missing > 0) measures.trajectory_sha256.clear();
-  Result result = result_of(experiment_, measures, "attached", wall_time);
+  Result result = result_of(experiment_, measures, "attached", equations().evaluation(), wall_time);
   result.missing_ticks = missing;
   result.session = session_;
   return result;

@@ -13,6 +13,9 @@
 
 namespace mixloop {
 
+/// Of a prefix, bytes: names of LCM's channels have 63 at most, and the longest of ours is SIM_CONTROL's.
+constexpr std::size_t kLongestPrefix = 63 - std::string_view("SIM_CONTROL").size();
+
 struct BusOptions {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
   std::string prefix = "MIXLOOP_";  ///< of every channel's name
