@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "commands/children.hpp"
+#include "processes/called_as.hpp"
 
 namespace mixloop {
 namespace {

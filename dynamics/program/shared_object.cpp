@@ -53,7 +53,7 @@ SharedObject SharedObject::cached(const std::string& key, const std::function<st
   SharedObject result;
   const auto compiler = find_compiler();
   if (!compiler) {
-    complaint = "no C++ compiler (c++, g++, clang++, $CXX)";
+    complaint = "no C++ compiler (c++, g++, clang++, $CXX; on Debian: apt-get install g++)";
     return result;
   }
   const auto directory = cache_directory();
