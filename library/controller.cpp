@@ -13,9 +13,9 @@ struct Controller::Content {
 Controller::Controller(const Experiment& experiment)
     : content_(inside::translated([&] {
         const mixloop::Experiment& inner = Inside::of(experiment);
-        return std::make_unique<Content>(make_guarded_controller(inner),
-                                         static_cast<std::size_t>(inner.scene->n()),
-                                         static_cast<std::size_t>(inner.scene->n_u()));
+        return std::make_unique<Content>(Content{make_guarded_controller(inner),
+                                                 static_cast<std::size_t>(inner.scene->n()),
+                                                 static_cast<std::size_t>(inner.scene->n_u())});
       })) {}
 Controller::Controller(const Controller& other) : content_(std::make_unique<Content>(*other.content_)) {}
 Controller::Controller(Controller&&) noexcept = default;

@@ -62,7 +62,7 @@ std::size_t input_numbers(const mixloop::Scene& scene, Purpose purpose) {
 }  // namespace
 
 struct Equations::Content {
-  Content(std::shared_ptr<const mixloop::Scene> scene, const std::vector<mixloop::Purpose>& purposes,
+  Content(const std::shared_ptr<const mixloop::Scene>& scene, const std::vector<mixloop::Purpose>& purposes,
           Evaluation how)
       : equations(std::make_shared<const mixloop::Equations>(scene, inner(how), purposes,
                                                              mixloop::Equations::Options{})),

@@ -34,7 +34,7 @@ Scene Experiment::scene() const { return Inside::of(content_->experiment.scene);
 
 Plan::Plan(const Experiment& experiment)
     : content_(inside::translated(
-          [&] { return std::make_shared<const Content>(make_plan(Inside::of(experiment))); })) {}
+          [&] { return std::make_shared<const Content>(Content{make_plan(Inside::of(experiment))}); })) {}
 
 std::int64_t Plan::ticks() const { return content_->plan.ticks(); }
 std::int64_t Plan::start_tick() const { return content_->plan.start_tick(); }

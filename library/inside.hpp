@@ -24,10 +24,11 @@ struct Plan::Content {
 
 struct Inside {
   static Scene of(std::shared_ptr<const mixloop::Scene> scene) {
-    return Scene(std::make_shared<const Scene::Content>(std::move(scene)));
+    return Scene(std::make_shared<const Scene::Content>(Scene::Content{std::move(scene)}));
   }
   static Experiment of(mixloop::Experiment experiment) {
-    return Experiment(std::make_shared<const Experiment::Content>(std::move(experiment)));
+    return Experiment(
+        std::make_shared<const Experiment::Content>(Experiment::Content{std::move(experiment)}));
   }
   static const std::shared_ptr<const mixloop::Scene>& of(const Scene& scene) { return scene.content_->scene; }
   static const mixloop::Experiment& of(const Experiment& experiment) {

@@ -24,8 +24,8 @@ struct Plant::Content {
 Plant::Plant(const Experiment& experiment, const Plan& plan)
     : content_(inside::translated([&] {
         const auto n = static_cast<std::size_t>(Inside::of(experiment).scene->n());
-        return std::make_unique<Content>(plant_of(Inside::of(experiment), Inside::of(plan)),
-                                         std::vector<double>(n), std::vector<double>(n));
+        return std::make_unique<Content>(Content{plant_of(Inside::of(experiment), Inside::of(plan)),
+                                                 std::vector<double>(n), std::vector<double>(n)});
       })) {}
 Plant::Plant(const Plant& other) : content_(std::make_unique<Content>(*other.content_)) {}
 Plant::Plant(Plant&&) noexcept = default;
