@@ -29,6 +29,7 @@ install(FILES README.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs FILES_MATCHING PATTERN *.md)
 install(DIRECTORY examples/library examples/suite DESTINATION ${share}/examples)
 install(FILES examples/controller.cpp examples/controller.py examples/Controller.java DESTINATION ${share}/examples)
+set(maintainer "The mixloop authors <mixloop@mixloop.invalid>")  # whoever publishes a package puts an address here
 add_subdirectory(packaging)
 
 # One Debian package. What it takes from elsewhere is recommended where only a part needs it: a compiler (machine code;
@@ -36,7 +37,7 @@ add_subdirectory(packaging)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME mixloop)
 set(CPACK_PACKAGE_VENDOR "The mixloop authors")
-set(CPACK_PACKAGE_CONTACT "The mixloop authors <mixloop@localhost>")
+set(CPACK_PACKAGE_CONTACT ${maintainer})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_STRIP_FILES ON)
@@ -44,14 +45,19 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, default-jre, liblcm-java, libjchart2d-java")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "liblcm-dev, liblcm-bin, cmake, pkg-config")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "equations of motion, run as a plant and a controller over LCM
- mixloop turns a description of a geared, loop-constrained mechanism into the
- smallest program for its equations of motion, and runs that program in a plant
- simulator and in the controller that drives it, over LCM at 1 kHz.
- .
- The package has the commands, the C++ library with its headers, the message
- types, scenes and experiments, and the pages of reports and of the view.")
+# Its shared library is the linker's to find: what a generated shlibs control file and ldconfig's trigger say.
+file(WRITE ${CMAKE_BINARY_DIR}/install/shlibs
+     "libmixloop ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} mixloop (>= ${PROJECT_VERSION})\n")
+file(WRITE ${CMAKE_BINARY_DIR}/install/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/install/shlibs ${CMAKE_BINARY_DIR}/install/triggers)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "mechanisms, run as a plant and a controller over LCM")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+    "mixloop turns a description of a geared, loop-constrained mechanism into the
+smallest program for its equations of motion, and runs that program in a plant
+simulator and in the controller that drives it, over LCM at 1 kHz.
+
+The package has the commands, the C++ library with its headers, the message
+types, scenes and experiments, and the pages of reports and of the view.")
 include(CPack)

@@ -13,6 +13,7 @@ page() {  # COMMAND NAME: its man page; the first sentence of its help is its na
   name=$($1 --help | sed -n '1{s/^mixloop[a-z-]*: //;s/\. .*//;s/\.$//;p}')
   help2man --no-info --no-discard-stderr --version-string "$version" --manual mixloop --source mixloop \
     --name "$name" --output "$2.1" "$1"
+  sed -i '/^\.SH NAME/{n;s/^mixloop \([a-z]*\) /mixloop-\1 /}' "$2.1"  # as whatis and apropos have it
 }
 
 for program in mixloop mixloop-plant mixloop-controller mixloop-planner; do page "$program" "$program"; done

@@ -15,23 +15,19 @@ using testing::HasSubstr;
 
 class Suite : public testing::Test {
  protected:
-  /// A tenth of a second near the start of the paper's line, with an empty and a full hand.
-  const std::string cases = folder.write("hands.yaml", std::string("base: ") + experiment("paper") + R"(
-path: {line: {from: [0.3, 0.0, 0.8], to: [0.29, 0.01, 0.79]}, duration: 0.1 s}
-expect:
-cases: {parameters.payload: {empty: 0 kg, full: 5 kg}}
-)");
   std::vector<std::string> track(const std::vector<std::string>& more) const {
     std::vector<std::string> words = {bin("mixloop"), "track", cases, "--json"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
 
- private:
-  ScratchFolder folder;
-
- protected:
-  ScratchFolder scratch;
+  ScratchFolder inputs, scratch;
+  /// A tenth of a second near the start of the paper's line, with an empty and a full hand.
+  const std::string cases = inputs.write("hands.yaml", std::string("base: ") + experiment("paper") + R"(
+path: {line: {from: [0.3, 0.0, 0.8], to: [0.29, 0.01, 0.79]}, duration: 0.1 s}
+expect:
+cases: {parameters.payload: {empty: 0 kg, full: 5 kg}}
+)");
 };
 
 TEST_F(Suite, RunsEveryCaseAndGivesWhatSimulateGivesOfIt) {
