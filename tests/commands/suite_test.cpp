@@ -56,7 +56,8 @@ TEST_F(Suite, NamesAreDistinct) {
   Command command({bin("mixloop"), "track", cases, cases, "--json"});
   ASSERT_EQ(command.wait(), 0) << command.err();
   std::vector<std::string> names;
-  for (const auto& result : command.json()["results"])
+  const auto results = command.json()["results"];
+  for (const auto& result : results)
     names.push_back(std::filesystem::path(result["experiment"].get<std::string>()).filename());
   EXPECT_THAT(names, ElementsAre("hands[payload=empty]", "hands[payload=full]", "hands[payload=empty] #2",
                                  "hands[payload=full] #2"));
