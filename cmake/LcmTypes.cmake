@@ -4,13 +4,13 @@ find_path(MIXLOOP_LCM_INCLUDE_DIR lcm/lcm.h REQUIRED)
 find_library(MIXLOOP_LCM_LIBRARY lcm REQUIRED)
 
 # mixloop_lcm_library(TARGET FILE.lcm...)
-# Generates the C++ headers of these types, package mixloop, into the build tree and makes TARGET,
-# an INTERFACE library that has them, LCM's own headers and -llcm. Include them as "mixloop/state_t.hpp".
+# Generates the C++ headers of these types, package mixloop_lcm, into the build tree and makes TARGET,
+# an INTERFACE library that has them, LCM's own headers and -llcm. Include them as "mixloop_lcm/state_t.hpp".
 function(mixloop_lcm_library target)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/cpp)
   foreach(source IN LISTS ARGN)
     get_filename_component(type ${source} NAME_WE)
-    set(header ${out}/mixloop/${type}.hpp)
+    set(header ${out}/mixloop_lcm/${type}.hpp)
     add_custom_command(
       OUTPUT ${header}
       COMMAND ${MIXLOOP_LCM_GEN} --cpp --cpp-std=c++11 --cpp-hpath ${out} ${CMAKE_CURRENT_SOURCE_DIR}/${source}
@@ -41,28 +41,28 @@ function(mixloop_lcm_jar target)
   foreach(source IN LISTS ARGN)
     get_filename_component(type ${source} NAME_WE)
     add_custom_command(
-      OUTPUT ${out}/mixloop/${type}.java
+      OUTPUT ${out}/mixloop_lcm/${type}.java
       COMMAND ${MIXLOOP_LCM_GEN} --java --jpath ${out} ${CMAKE_CURRENT_SOURCE_DIR}/${source}
       DEPENDS ${source}
       VERBATIM)
-    list(APPEND classes ${out}/mixloop/${type}.java)
+    list(APPEND classes ${out}/mixloop_lcm/${type}.java)
   endforeach()
   add_jar(${target} SOURCES ${classes} INCLUDE_JARS ${MIXLOOP_LCM_JAR} OUTPUT_NAME types
           OUTPUT_DIR ${CMAKE_BINARY_DIR}/share/mixloop)
 endfunction()
 
 # mixloop_lcm_python(TARGET FILE.lcm...)
-# The types as a Python package, mixloop; the target's property PACKAGE_FOLDER is what PYTHONPATH needs.
+# The types as a Python package, mixloop_lcm; the target's property PACKAGE_FOLDER is what PYTHONPATH needs.
 function(mixloop_lcm_python target)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/python)
   list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   add_custom_command(
-    OUTPUT ${out}/mixloop/__init__.py
+    OUTPUT ${out}/mixloop_lcm/__init__.py
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${out}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${out}
     COMMAND ${MIXLOOP_LCM_GEN} --python --ppath ${out} ${sources}
     DEPENDS ${sources}
     VERBATIM)
-  add_custom_target(${target} ALL DEPENDS ${out}/mixloop/__init__.py)
+  add_custom_target(${target} ALL DEPENDS ${out}/mixloop_lcm/__init__.py)
   set_target_properties(${target} PROPERTIES PACKAGE_FOLDER ${out})
 endfunction()

@@ -42,6 +42,8 @@ endfunction()
 add_library(mixloop_numbers INTERFACE)
 add_library(mixloop_people INTERFACE)
 add_library(mixloop_tests INTERFACE)
+# Numbers are also what the shared library is made of.
+target_compile_options(mixloop_numbers INTERFACE -fPIC -fno-semantic-interposition)
 target_compile_options(mixloop_people INTERFACE $<$<CONFIG:Release>:-O1>)
 target_compile_options(mixloop_tests INTERFACE $<$<CONFIG:Release>:-O1>)
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "commands/children.hpp"
 #include "notation/utf8.hpp"
+#include "processes/called_as.hpp"
 
 namespace mixloop {
 namespace {

@@ -122,6 +122,4 @@ bool Child::reap(bool wait) {
   return true;
 }
 
-std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
-
 }  // namespace mixloop

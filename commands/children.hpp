@@ -46,7 +46,4 @@ class Child {
   int killed_by_ = 0;
 };
 
-/// The folder of the running executable, where its siblings lie.
-std::string own_folder();
-
 }  // namespace mixloop

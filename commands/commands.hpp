@@ -22,6 +22,8 @@ void add_view_command(CLI::App& app, int& status);
 void add_spy_command(CLI::App& app, int& status);
 void add_doctor_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
+void add_netns_command(CLI::App& app, int& status);
+void add_schema_command(CLI::App& app, int& status);
 void add_monitor_command(CLI::App& app, int& status);
 
 }  // namespace mixloop

@@ -11,6 +11,7 @@
 #include "loop/result.hpp"
 #include "notation/long_work.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/called_as.hpp"
 #include "processes/standard_output.hpp"
 #include "report/progress.hpp"
 #include "runtime/machine/fitness.hpp"
@@ -50,6 +51,7 @@ int run(const DoctorLine& options) {
     Finding finding;
     try {
       finding = check();
+      finding.mend = as_called(finding.mend);
     } catch (const Interrupted&) {
       interrupted = true;
       break;

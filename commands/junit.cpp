@@ -1,11 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "commands/junit.hpp"
 
+#include <fmt/format.h>
 #include <tinyxml2.h>
+
+#include <cmath>
 
 #include "loop/output_file.hpp"
 
 namespace mixloop {
+namespace {
+
+/// What was measured, as properties of the test.
+void add_measures(tinyxml2::XMLElement& test, const RunFigures& run) {
+  auto* list = test.InsertNewChildElement("properties");
+  const auto add = [&](const std::string& name, double value, const std::string& unit) {
+    if (!std::isfinite(value)) return;
+    auto* property = list->InsertNewChildElement("property");
+    property->SetAttribute("name", fmt::format("{} [{}]", name, unit).c_str());
+    property->SetAttribute("value", fmt::format("{}", value).c_str());
+  };
+  add("max_position_error", run.measures.max_position_error, "m");
+  add("time_of_max_position_error", run.measures.time_of_max_position_error, "s");
+  add("final_position_error", run.measures.final_position_error, "m");
+  add("rms_position_error", run.measures.rms_position_error, "m");
+  for (std::size_t i = 0; i < run.torque_units.size(); ++i)
+    add(fmt::format("max_torque[{}]", i), run.measures.max_torque[static_cast<Eigen::Index>(i)],
+        run.torque_units[i]);
+}
+
+}  // namespace
 
 void write_junit(const std::string& file, std::span<const Result> results) {
   tinyxml2::XMLDocument document;
@@ -18,7 +42,10 @@ void write_junit(const std::string& file, std::span<const Result> results) {
     auto* test = suite->InsertNewChildElement("testcase");
     test->SetAttribute("classname", "mixloop.track");
     test->SetAttribute("name", result.experiment.c_str());
-    if (result.run) test->SetAttribute("time", result.run->wall_time);
+    if (result.run) {
+      test->SetAttribute("time", result.run->wall_time);
+      add_measures(*test, *result.run);
+    }
     if (result.error && result.judged.verdict == Verdict::interrupted) {
       ++skipped;
       test->InsertNewChildElement("skipped")->SetAttribute("message", result.error->message.c_str());

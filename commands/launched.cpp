@@ -18,6 +18,7 @@
 #include "commands/warnings.hpp"
 #include "loop/inputs.hpp"
 #include "loop/recorded_plant.hpp"
+#include "processes/called_as.hpp"
 #include "processes/command_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/report_line.hpp"

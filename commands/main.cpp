@@ -30,5 +30,7 @@ int main(int argc, char** argv) {
   mixloop::add_monitor_command(app, status);
   mixloop::add_doctor_command(app, status);
   mixloop::add_export_command(app, status);
+  mixloop::add_netns_command(app, status);
+  mixloop::add_schema_command(app, status);
   return mixloop::run_command_line(argc, argv, app, status);
 }

@@ -146,7 +146,7 @@ void add_monitor_command(CLI::App& app, int& status) {
       "  mixloop monitor experiments/paper.yaml --once      # one look, as text\n"
       "  mixloop monitor --json --seconds 5 | jq '.channels.MIXLOOP_STATE.rate'\n"
       "In the network namespace of a run that holds:\n"
-      "  nsenter --preserve-credentials --user --net --target PID build/release/bin/mixloop monitor");
+      "  nsenter --preserve-credentials --user --net --target PID mixloop monitor");
   command->callback([options, &status] { status = run(*options); });
 }
 

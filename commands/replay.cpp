@@ -64,7 +64,8 @@ class Replay {
       return "it has no message on " + names_[2] + "; expected another --channel-prefix, or the log of a run";
     const std::string messages = fmt::format("its {} messages on {} ", heard_, names_[2]);
     if (of_another_type_ > 0)
-      return messages + "are of another type than mixloop.command_t; expected a log of mixloop's messages";
+      return messages +
+             "are of another type than mixloop_lcm.command_t; expected a log of mixloop's messages";
     if (of_another_n_ > 0)
       return messages + fmt::format(
                             "are of another number of motors than the experiment's {}; expected the log of a "

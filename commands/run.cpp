@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/launched.hpp"
+#include "loop/cases.hpp"
 #include "notation/utf8.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/keep.hpp"
@@ -22,6 +23,7 @@ namespace {
 struct RunLine : CommonOptions {
   Launch launch;
   bool lockstep = false;
+  std::string case_name;
 };
 
 int run(RunLine& options) {
@@ -29,6 +31,7 @@ int run(RunLine& options) {
   stop.turn_on_signals();
   const ShownWork work(stop);
   Launch& launch = options.launch;
+  options.take_case(launch.experiment, options.case_name);
   launch.sets = options.sets;
   launch.quiet = options.json;
   if (!launch.speed.empty()) {
@@ -42,6 +45,7 @@ int run(RunLine& options) {
         cores);
   Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
   experiment.evaluation = launch.evaluation;
+  experiment.name = name_with_case(experiment.name, options.case_name);
   const auto print = [&](const Result& result) {
     if (options.json) return;
     fmt::print("{}{}", summary(experiment, result), bus_summary(result));
@@ -60,7 +64,8 @@ int run(RunLine& options) {
         getpid());
     flush_standard_output();
   };
-  const Result result = launched(experiment, launch, stop, at_end);
+  Result result = launched(experiment, launch, stop, at_end);
+  result.experiment = experiment.name;
   if (!launch.out.empty()) keep_result(launch.out, result);
   if (options.json)
     print_json(json_of(result));
@@ -77,6 +82,7 @@ void add_run_command(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("run", "the three processes over LCM: launches them, waits, summarises");
   add_experiment_option(*command, launch.experiment);
   add_common_options(*command, *options);
+  add_case_option(*command, options->case_name);
   add_bus_options(*command, launch.bus);
   auto* lockstep =
       command->add_flag("--lockstep", options->lockstep, "plant time waits for every command (the default)");
@@ -111,11 +117,11 @@ void add_run_command(CLI::App& app, int& status) {
                      "seconds to wait for all to be there at the start, 60", 86400);
   add_evaluation_option(*command, launch.evaluation);
   command->footer(
-      "LCM needs a multicast route; tools/in-namespace gives a command a network of its own that has one.\n"
+      "LCM needs a multicast route; mixloop netns gives a command a network of its own that has one.\n"
       "Examples:\n"
-      "  tools/in-namespace build/release/bin/mixloop run experiments/paper.yaml --speed 1 --out "
+      "  mixloop netns mixloop run experiments/paper.yaml --speed 1 --out "
       "results/paper\n"
-      "  tools/in-namespace build/release/bin/mixloop run experiments/paper.yaml --realtime\n"
+      "  mixloop netns mixloop run experiments/paper.yaml --realtime\n"
       "  mixloop run experiments/paper.yaml --without controller     # waits for yours");
   command->callback([options, &status] { status = run(*options); });
 }

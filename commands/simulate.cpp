@@ -11,6 +11,7 @@
 #include "commands/warnings.hpp"
 #include "loop/arrivals.hpp"
 #include "loop/arrivals_file.hpp"
+#include "loop/cases.hpp"
 #include "loop/review.hpp"
 #include "notation/long_work.hpp"
 #include "notation/utf8.hpp"
@@ -73,15 +74,17 @@ namespace {
 struct SimulateLine : CommonOptions {
   std::string experiment;
   std::string out;
-  std::string ages;
+  std::string ages, case_name;
   Evaluation evaluation = Evaluation::machine_code;
 };
 
-int run(const SimulateLine& options) {
+int run(SimulateLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   const ShownWork work(stop);
+  options.take_case(options.experiment, options.case_name);
   Experiment experiment = load_experiment(std::filesystem::path(options.experiment), options.overrides());
+  experiment.name = name_with_case(experiment.name, options.case_name);
   experiment.evaluation = options.evaluation;
   const Result result = simulated(experiment, options.out, stop, options.json, options.ages);
   if (options.json)
@@ -107,6 +110,7 @@ void add_simulate_command(CLI::App& app, int& status) {
           "the ages.csv that a run in real time kept: its commands arrive as they did then, for the same "
           "trajectory, bit by bit")
       ->type_name("LOG");
+  add_case_option(*command, options->case_name);
   add_evaluation_option(*command, options->evaluation);
   command->footer(
       "Examples:\n"

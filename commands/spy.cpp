@@ -10,9 +10,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "commands/children.hpp"
 #include "commands/commands.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/called_as.hpp"
 #include "runtime/bus/multicast_route.hpp"
 
 namespace mixloop {
@@ -29,7 +29,7 @@ std::string required(const std::string& file, const std::string& what, const std
 
 int run(const BusOptions& bus) {
   // lcm-spy finds types in what CLASSPATH names, and needs them on its own class path too.
-  std::string types = required(own_folder() + "/../share/mixloop/types.jar", "the jar of the message types",
+  std::string types = required(shared_file("types.jar"), "the jar of the message types",
                                std::string("it is built where there is a JDK: ") + kPackages +
                                    " openjdk-17-jdk-headless, then build again");
   if (const char* others = std::getenv("CLASSPATH"); others && *others) types += std::string(":") + others;
@@ -60,7 +60,7 @@ void add_spy_command(CLI::App& app, int& status) {
       "Double-click a channel to see its fields, and a field to plot it. Types of your own are found in "
       "what\n"
       "CLASSPATH names. In the network namespace of a run that holds:\n"
-      "  nsenter --preserve-credentials --user --net --target PID build/release/bin/mixloop spy");
+      "  nsenter --preserve-credentials --user --net --target PID mixloop spy");
   command->callback([bus, &status] { status = run(*bus); });
 }
 

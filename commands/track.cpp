@@ -4,16 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <mutex>
+#include <thread>
 
 #include "commands/attached.hpp"
+#include "commands/baseline.hpp"
 #include "commands/commands.hpp"
 #include "commands/junit.hpp"
 #include "commands/launched.hpp"
 #include "commands/simulated.hpp"
+#include "commands/suite.hpp"
 #include "notation/long_work.hpp"
 #include "notation/number_text.hpp"
 #include "notation/utf8.hpp"
 #include "processes/bus_line.hpp"
+#include "processes/keep.hpp"
 #include "processes/result_json.hpp"
 #include "processes/standard_output.hpp"
 #include "report/progress.hpp"
@@ -24,7 +30,9 @@ namespace {
 struct TrackLine : CommonOptions {
   std::vector<std::string> experiments;
   bool over_bus = false, attach = false;
-  std::string junit;
+  std::string junit, out, baseline;
+  double worse = 0.05;
+  int jobs = 1;
   BusOptions bus;
   double patience = 10;
   Evaluation evaluation = Evaluation::machine_code;
@@ -48,33 +56,50 @@ int exit_status(const Result& result) {
   return kInterrupted;
 }
 
-Result tracked(const std::string& file, const TrackLine& options, const StopSwitch& stop) {
-  Experiment experiment = load_experiment(std::filesystem::path(file), options.overrides());
+/// Where a run keeps its files: a folder of its own in --out; empty where nothing is kept.
+std::string folder_of(const SuiteRun& run, const TrackLine& options) {
+  if (options.out.empty()) return "";
+  std::string name = run.name;
+  std::ranges::replace(name, '/', '_');
+  return (std::filesystem::path(options.out) / name).string();
+}
+
+Result tracked(const SuiteRun& run, const TrackLine& options, const StopSwitch& stop) {
+  if (run.unusable) throw InputError(*run.unusable);
+  TrackLine line = options;
+  line.sets.insert(line.sets.begin(), run.sets.begin(), run.sets.end());
+  Experiment experiment = load_experiment(std::filesystem::path(run.file), line.overrides());
+  experiment.name = run.name;
   experiment.evaluation = options.evaluation;
+  const std::string out = folder_of(run, options);
   const auto patience = nanoseconds(static_cast<std::int64_t>(options.patience * 1e9));
   if (options.attach) return attached(experiment, options.bus, patience, patience, stop);
-  if (!options.over_bus) return simulated(experiment, "", stop, true);
+  if (!options.over_bus) return simulated(experiment, out, stop, true);
   Launch launch;
-  launch.experiment = file;
-  launch.sets = options.sets;
+  launch.experiment = run.file;
+  launch.sets = line.sets;
+  launch.out = out;
   launch.bus = options.bus;
   launch.patience = options.patience;
   launch.evaluation = options.evaluation;
   launch.quiet = true;
-  return launched(experiment, launch, stop);
+  Result result = launched(experiment, launch, stop);
+  result.experiment = run.name;
+  if (!out.empty()) keep_result(out, result);
+  return result;
 }
 
-Result tracked_or_error(const std::string& file, const TrackLine& options, const StopSwitch& stop) {
+Result tracked_or_error(const SuiteRun& run, const TrackLine& options, const StopSwitch& stop) {
   const auto error = [&](const std::string& code, const std::string& message, const Place& place,
                          int status) -> Result {
-    return {.experiment = printable_name(std::filesystem::path(file).stem().string()),
+    return {.experiment = printable_name(run.name),
             .judged = {.verdict = status == kInterrupted ? Verdict::interrupted : Verdict::fault,
                        .exit_status = status},
             .error = {{.code = code, .message = message, .where = to_string(place)}}};
   };
   if (stop.turned()) return error("interrupted", "interrupted before it began", {}, kInterrupted);
   try {
-    return tracked(file, options, stop);
+    return tracked(run, options, stop);
   } catch (const InputError& bad) {
     return error(bad.code, bad.message, bad.place, kBadInput);
   } catch (const RunFault& fault) {
@@ -102,18 +127,66 @@ void print_line(const Result& result) {
   flush_standard_output();
 }
 
+/// What is worse than last time is missed. Whether anything is.
+bool compare(const Baseline& baseline, double part, Result& result) {
+  const auto worse = baseline.worse(result, part);
+  if (worse.empty()) return false;
+  result.judged.missed.insert(result.judged.missed.end(), worse.begin(), worse.end());
+  if (result.judged.verdict != Verdict::held) return true;
+  result.judged.verdict = Verdict::missed;
+  result.judged.exit_status = std::max<int>(result.judged.exit_status, kMissed);
+  return true;
+}
+
+/// The results of all runs, in their order, `jobs` at a time; `done` with each, in that order, as soon as may
+/// be.
+std::vector<Result> run_all(const std::vector<SuiteRun>& runs, const TrackLine& options,
+                            const StopSwitch& stop, const std::function<void(Result&)>& done) {
+  std::vector<std::optional<Result>> results(runs.size());
+  std::mutex mutex;
+  std::size_t next = 0, told = 0;
+  const auto work = [&] {
+    for (;;) {
+      std::size_t mine;
+      {
+        const std::lock_guard lock(mutex);
+        if (next == runs.size()) return;
+        mine = next++;
+      }
+      Result result = tracked_or_error(runs[mine], options, stop);
+      const std::lock_guard lock(mutex);
+      results[mine] = std::move(result);
+      for (; told < results.size() && results[told]; ++told) done(*results[told]);
+    }
+  };
+  std::vector<std::jthread> others;
+  for (int i = 1; i < std::min<int>(options.jobs, static_cast<int>(runs.size())); ++i)
+    others.emplace_back([&] {
+      const WorkWatch watch([&] { return stop.turned(); });
+      work();
+    });
+  work();
+  others.clear();
+  std::vector<Result> all;
+  for (auto& result : results) all.push_back(std::move(*result));
+  return all;
+}
+
 int run(const TrackLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   const ShownWork work(stop);
-  std::vector<Result> results;
+  std::optional<Baseline> baseline;
+  if (!options.baseline.empty()) baseline.emplace(options.baseline);
   int highest = kHeld;
-  for (const auto& file : options.experiments) {
-    results.push_back(tracked_or_error(file, options, stop));
-    highest = std::max(highest, exit_status(results.back()));
-    if (!options.json) print_line(results.back());
-  }
+  bool worse = false;
+  const auto results = run_all(suite_of(options.experiments), options, stop, [&](Result& result) {
+    if (baseline && compare(*baseline, options.worse, result)) worse = true;
+    highest = std::max(highest, exit_status(result));
+    if (!options.json) print_line(result);
+  });
   if (stop.turned()) highest = kInterrupted;
+  if (baseline && !worse && !stop.turned()) baseline->keep(results);
   if (!options.junit.empty()) write_junit(options.junit, results);
   if (options.json) {
     auto list = nlohmann::json::array();
@@ -136,9 +209,28 @@ void add_track_command(CLI::App& app, int& status) {
   auto* over_bus =
       command->add_flag("--over-bus", options->over_bus,
                         "by three processes over LCM, as mixloop run does, instead of in this process");
-  command->add_flag("--attach", options->attach, "listen to processes that are already running")
-      ->excludes(over_bus);
-  command->add_option("--junit", options->junit, "write a JUnit report to this file")->type_name("FILE");
+  auto* attach =
+      command->add_flag("--attach", options->attach, "listen to processes that are already running")
+          ->excludes(over_bus);
+  command->add_option("--junit", options->junit, "write a JUnit report to this file, measures included")
+      ->type_name("FILE");
+  command->add_option("--out", options->out, "keep each run's files in a folder of its name in this one")
+      ->type_name("DIR")
+      ->excludes(attach);
+  command->add_option("--jobs", options->jobs, "how many run at a time, in this process; 1")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256))
+      ->excludes(over_bus)
+      ->excludes(attach);
+  command
+      ->add_option("--baseline", options->baseline,
+                   "hold that nothing measured is worse than last time, by more than --worse, and keep it in "
+                   "this file "
+                   "for the next")
+      ->type_name("FILE");
+  command->add_option("--worse", options->worse, "the part by which it may be worse, 0.05")
+      ->type_name("PART")
+      ->check(CLI::Range(0.0, 1000.0));
   add_seconds_option(*command, "--patience", options->patience,
                      "seconds without a plant after which it is lost, 10");
   add_bus_options(*command, options->bus);
@@ -148,7 +240,7 @@ void add_track_command(CLI::App& app, int& status) {
       "true}` is\n"
       "held when it diverges. Exits with the highest status.\n"
       "Example:\n"
-      "  mixloop track experiments/*.yaml --junit track.xml");
+      "  mixloop track experiments/*.yaml --jobs 4 --junit track.xml --baseline last.json");
   command->callback([options, &status] { status = run(*options); });
 }
 

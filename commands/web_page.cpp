@@ -6,13 +6,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "commands/children.hpp"
 #include "notation/errors.hpp"
+#include "processes/called_as.hpp"
 
 namespace mixloop {
 
 std::string web_page(const std::string& name) {
-  const std::string file = own_folder() + "/../share/mixloop/" + name;
+  const std::string file = shared_file(name);
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();

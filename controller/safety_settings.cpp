@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "controller/safety_settings.hpp"
 
+#include "controller/controller_keys.hpp"
 #include "dynamics/scene/coordinate_values.hpp"
 #include "notation/value.hpp"
 
@@ -40,10 +41,20 @@ std::vector<std::array<double, 2>> read_range(const NodePtr& node, const Scene& 
 
 }  // namespace
 
+const Keys& safety_keys() {
+  static const Keys keys{"the controller's safety",
+                         {{"torque_limit", form::numbers()},
+                          {"torque_rate_limit", form::numbers()},
+                          {"velocity_limit", form::numbers()},
+                          {"position_range", form::list(form::numbers())},
+                          {"start_tolerance", form::numbers()},
+                          {"max_stale", form::whole()},
+                          {"safe_command", form::word({"zero_torque", "damp"})}}};
+  return keys;
+}
+
 SafetySettings read_safety_settings(const NodePtr& node, const Scene& scene) {
-  const Mapping entry(node, "the controller's safety",
-                      {"torque_limit", "torque_rate_limit", "velocity_limit", "position_range",
-                       "start_tolerance", "max_stale", "safe_command"});
+  const Mapping entry = read_mapping(node, safety_keys());
   SafetySettings settings;
   settings.torque_limit = limits(entry, "torque_limit", scene, kTorque);
   settings.torque_rate_limit = limits(entry, "torque_rate_limit", scene, kTorque / kSeconds);
@@ -53,8 +64,8 @@ SafetySettings read_safety_settings(const NodePtr& node, const Scene& scene) {
   if (const NodePtr stale = entry.find("max_stale"))
     settings.max_stale = static_cast<int>(whole_number_of(*stale, 0, 1'000'000, "max_stale"));
   if (const NodePtr command = entry.find("safe_command"))
-    settings.safe_command =
-        static_cast<SafeCommand>(word_of(*command, {"zero_torque", "damp"}, "the safe command"));
+    settings.safe_command = static_cast<SafeCommand>(
+        word_of(*command, words_of(safety_keys(), "safe_command"), "the safe command"));
   return settings;
 }
 

@@ -2,10 +2,10 @@
 // A stranger's controller: PD on the motors, against the messages alone. The law is in torque().
 import java.util.TreeMap;
 import lcm.lcm.LCM;
-import mixloop.command_t;
-import mixloop.reference_t;
-import mixloop.sim_control_t;
-import mixloop.state_t;
+import mixloop_lcm.command_t;
+import mixloop_lcm.reference_t;
+import mixloop_lcm.sim_control_t;
+import mixloop_lcm.state_t;
 
 class Controller {
   static final double[] KP = {100, 25, 25}, KV = {1, 0.5, 0.5};

@@ -7,10 +7,10 @@
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 
-#include "mixloop/command_t.hpp"
-#include "mixloop/reference_t.hpp"
-#include "mixloop/sim_control_t.hpp"
-#include "mixloop/state_t.hpp"
+#include "mixloop_lcm/command_t.hpp"
+#include "mixloop_lcm/reference_t.hpp"
+#include "mixloop_lcm/sim_control_t.hpp"
+#include "mixloop_lcm/state_t.hpp"
 
 class Controller {
  public:
@@ -41,8 +41,9 @@ class Controller {
     return kp[i] * (psi_d - psi) + kv[i] * (psid_d - psid);
   }
 
-  static mixloop::command_t answer_to(const mixloop::state_t& state, const mixloop::reference_t& desired) {
-    mixloop::command_t command{};
+  static mixloop_lcm::command_t answer_to(const mixloop_lcm::state_t& state,
+                                          const mixloop_lcm::reference_t& desired) {
+    mixloop_lcm::command_t command{};
     command.n = state.n, command.utime = state.utime, command.seq = state.seq;
     command.session = state.session, command.config = state.config;
     for (int i = 0; i < state.n; ++i)
@@ -51,7 +52,7 @@ class Controller {
     return command;
   }
 
-  void state(const lcm::ReceiveBuffer*, const std::string&, const mixloop::state_t* message) {
+  void state(const lcm::ReceiveBuffer*, const std::string&, const mixloop_lcm::state_t* message) {
     if (message->n != 3) return;  // the law above is for three motors
     const auto now = std::chrono::steady_clock::now();
     const bool of_this_run = message->session == state_.session;
@@ -62,22 +63,22 @@ class Controller {
     state_ = *message;
     asked_ = true;
   }
-  void reference(const lcm::ReceiveBuffer*, const std::string&, const mixloop::reference_t* message) {
+  void reference(const lcm::ReceiveBuffer*, const std::string&, const mixloop_lcm::reference_t* message) {
     if (message->n != 3 || (state_.session != 0 && message->session != state_.session)) return;
     references_[message->seq] = *message;
     references_.erase(references_.begin(), references_.lower_bound(message->seq - 10));
   }
-  void sim_control(const lcm::ReceiveBuffer*, const std::string&, const mixloop::sim_control_t* message) {
-    done =
-        done || (message->action == mixloop::sim_control_t::ACTION_END && message->session == state_.session);
+  void sim_control(const lcm::ReceiveBuffer*, const std::string&, const mixloop_lcm::sim_control_t* message) {
+    done = done ||
+           (message->action == mixloop_lcm::sim_control_t::ACTION_END && message->session == state_.session);
   }
 
   lcm::LCM& bus_;
-  mixloop::state_t state_{};  // the newest of the run that is followed; session 0: none was heard
-  bool asked_ = false;        // it waits for its answer
+  mixloop_lcm::state_t state_{};  // the newest of the run that is followed; session 0: none was heard
+  bool asked_ = false;            // it waits for its answer
   std::chrono::steady_clock::time_point heard_;
-  std::map<int64_t, mixloop::reference_t> references_;
-  mixloop::command_t command_{};  // the latest answer
+  std::map<int64_t, mixloop_lcm::reference_t> references_;
+  mixloop_lcm::command_t command_{};  // the latest answer
 };
 
 int main() {

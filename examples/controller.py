@@ -13,7 +13,7 @@ import struct
 import sys
 import time
 
-from mixloop import command_t, reference_t, sim_control_t, state_t
+from mixloop_lcm import command_t, reference_t, sim_control_t, state_t
 
 KP, KV = (100.0, 25.0, 25.0), (1.0, 0.5, 0.5)
 

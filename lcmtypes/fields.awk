@@ -13,9 +13,12 @@ BEGIN {
     types = types ", " type
     channels = channels (i > 1 ? ", " : "") channel
     names = names (i > 1 ? ", " : "") "\"" toupper(channel) "\""
-    print "#include \"mixloop/" type ".hpp\""
+    print "#include \"mixloop_lcm/" type ".hpp\""
   }
-  print "\nnamespace mixloop {\n\n/// Any of our messages, or none.\nusing AnyMessage = std::variant<std::monostate" types ">;"
+  print "\nnamespace mixloop {\n"
+  split(substr(types, 3), all, ", ")
+  for (i = 1; i in all; ++i) print "using mixloop_lcm::" all[i] ";"
+  print "\n/// Any of our messages, or none.\nusing AnyMessage = std::variant<std::monostate" types ">;"
   print "\n/// The channels of the bus, one a type, in AnyMessage's order."
   print "enum class Channel : std::uint8_t { " channels " };"
   print "/// Their names without the prefix."

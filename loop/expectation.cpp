@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dynamics/scene/coordinate_values.hpp"
+#include "loop/experiment_keys.hpp"
 #include "notation/value.hpp"
 
 namespace mixloop {
@@ -68,6 +69,17 @@ void check_divergence(const Expectation& expectation, const Mapping& entry) {
 
 }  // namespace
 
+const Keys& expectation_keys() {
+  static const Keys keys{"what is expected",
+                         {{"max_position_error", form::numbers()},
+                          {"final_position_error", form::numbers()},
+                          {"rms_position_error", form::numbers()},
+                          {"max_torque", form::numbers()},
+                          {"diverges", form::flag()},
+                          {"safe_state", form::flag()}}};
+  return keys;
+}
+
 double Expectation::Bound::value_in(const Measures& measures) const {
   if (motor) return measures.max_torque[*motor];
   for (const auto& known : kErrors)
@@ -76,9 +88,7 @@ double Expectation::Bound::value_in(const Measures& measures) const {
 }
 
 Expectation read_expectation(const NodePtr& node, const Scene& scene, double position_error_limit) {
-  const Mapping entry(node, "what is expected",
-                      {"max_position_error", "final_position_error", "rms_position_error", "max_torque",
-                       "diverges", "safe_state"});
+  const Mapping entry = read_mapping(node, expectation_keys());
   Expectation expectation;
   for (const auto& known : kErrors) {
     const NodePtr bound = entry.find(known.name);

@@ -6,12 +6,17 @@
 
 #include <algorithm>
 
+#include "controller/controller_keys.hpp"
 #include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/scene/load_scene.hpp"
+#include "loop/base.hpp"
+#include "loop/experiment_keys.hpp"
 #include "notation/formula.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
+#include "planner/path_keys.hpp"
 #include "plant/hardware.hpp"
+#include "plant/plant_keys.hpp"
 
 namespace mixloop {
 namespace {
@@ -70,7 +75,7 @@ double read_rate(const Node& node) {
 }
 
 void read_limits(const NodePtr& node, Experiment& experiment) {
-  const Mapping entry(node, "the limits", {"position_error", "velocity", "torque"});
+  const Mapping entry = read_mapping(node, limit_keys());
   if (const NodePtr limit = entry.find("position_error"))
     experiment.position_error_limit = number_of(*limit, kLength, "the position error limit");
   if (!(experiment.position_error_limit > 0))
@@ -154,6 +159,32 @@ NodePtr parameters_in(const NodePtr& section) {
 
 }  // namespace
 
+const Keys& limit_keys() {
+  static const Keys keys{
+      "the limits",
+      {{"position_error", form::number()}, {"velocity", form::numbers()}, {"torque", form::numbers()}}};
+  return keys;
+}
+
+const Keys& experiment_keys() {
+  static const Keys keys{"the experiment",
+                         {{"base", form::text()},
+                          {"scene", form::text(), kRequired},
+                          {"rate", form::number()},
+                          {"path", form::mapping(path_keys), kRequired},
+                          {"controller", form::mapping(controller_keys), kRequired},
+                          {"plant", form::mapping(plant_keys)},
+                          {"real_time", form::mapping(real_time_keys)},
+                          {"parameters", form::named(form::number())},
+                          {"limits", form::mapping(limit_keys)},
+                          {"expect", form::mapping(expectation_keys)},
+                          {"faults", form::list(form::mapping(fault_keys))},
+                          {"seed", form::whole()},
+                          {"cases", form::named(form::any())}},
+                         "base"};
+  return keys;
+}
+
 Override parse_override(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
@@ -169,10 +200,8 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file,
                            const std::vector<Override>& overrides) {
   Experiment experiment;
-  experiment.document = overridden(document, overrides, false);
-  const Mapping root(experiment.document, "the experiment",
-                     {"scene", "rate", "path", "controller", "plant", "real_time", "parameters", "limits",
-                      "expect", "faults", "seed"});
+  experiment.document = overridden(on_base(document, file), overrides, false);
+  const Mapping root = read_mapping(experiment.document, experiment_keys());
   experiment.file = file;
   experiment.name = printable_name(file.stem().string());
   const auto base = file.parent_path();
@@ -214,7 +243,11 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
 }
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return load_scene(overridden_scene(read_document(file), overrides, false));
+  return load_scene(read_document(file), overrides);
+}
+
+Scene load_scene(const NodePtr& document, const std::vector<Override>& overrides) {
+  return load_scene(overridden_scene(document, overrides, false));
 }
 
 Plan make_plan(const Experiment& experiment) {

@@ -15,4 +15,10 @@ void require_start(const GuardedController& controller, std::span<const double> 
 /// processes run over the bus, so the same bytes. `go_on(k)` is asked at every tick; false interrupts.
 void simulate(RecordedPlant& run, const std::function<bool(std::int64_t k)>& go_on);
 
+/// tau (n_u) for what is measured and desired.
+using TorqueLaw = std::function<void(const Measurement&, const Reference&, std::span<double> tau)>;
+
+/// The same with any law in the controller's place.
+void simulate(RecordedPlant& run, const TorqueLaw& law, const std::function<bool(std::int64_t k)>& go_on);
+
 }  // namespace mixloop

@@ -4,11 +4,25 @@
 #include <fmt/format.h>
 
 #include "notation/value.hpp"
+#include "planner/path_keys.hpp"
 
 namespace mixloop {
 namespace {
 
 constexpr long kMostLaps = 1'000'000;
+
+const Keys& line_keys() {
+  static const Keys keys{"the line",
+                         {{"from", form::numbers(), kRequired}, {"to", form::numbers(), kRequired}}};
+  return keys;
+}
+
+const Keys& via_keys() {
+  static const Keys keys{
+      "a via point",
+      {{"at", form::numbers(), kRequired}, {"duration", form::number()}, {"dwell", form::number()}}};
+  return keys;
+}
 
 Eigen::Vector3d read_point(const NodePtr& node, const Scene& scene, const std::string& what) {
   const auto& axes = scene.end_effector.axes;
@@ -28,7 +42,7 @@ double read_duration(const Node& node, const std::string& what, bool may_be_zero
 }
 
 void read_line(const NodePtr& node, const NodePtr& duration, const Scene& scene, Path& path) {
-  const Mapping line(node, "the line", {"from", "to"});
+  const Mapping line = read_mapping(node, line_keys());
   const NodePtr from = line.at("from"), to = line.at("to");
   path.vias.push_back({.point = read_point(from, scene, "the line's first point"), .place = from->place});
   path.vias.push_back({.point = read_point(to, scene, "the line's last point"),
@@ -37,7 +51,7 @@ void read_line(const NodePtr& node, const NodePtr& duration, const Scene& scene,
 }
 
 Path::Via read_via(const NodePtr& item, const NodePtr& usual_duration, bool is_first, const Scene& scene) {
-  const Mapping entry(item, "a via point", {"at", "duration", "dwell"});
+  const Mapping entry = read_mapping(item, via_keys());
   Path::Via via{.point = read_point(entry.at("at"), scene, "a via point"), .place = item->place};
   if (const NodePtr dwell = entry.find("dwell")) via.dwell = read_duration(*dwell, "the dwell", true);
   const NodePtr own = entry.find("duration");
@@ -58,8 +72,19 @@ Path::Via read_via(const NodePtr& item, const NodePtr& usual_duration, bool is_f
 
 }  // namespace
 
+const Keys& path_keys() {
+  static const Keys keys{"the path",
+                         {{"line", form::mapping(line_keys)},
+                          {"via", form::list(form::mapping(via_keys))},
+                          {"profile", form::word({"cycloidal"})},
+                          {"duration", form::number()},
+                          {"repeat", form::whole()},
+                          {"approach", form::number()}}};
+  return keys;
+}
+
 Path read_path(const NodePtr& node, const Scene& scene) {
-  const Mapping entry(node, "the path", {"line", "via", "profile", "duration", "repeat", "approach"});
+  const Mapping entry = read_mapping(node, path_keys());
   Path path;
   path.axes = scene.end_effector.axes;
   path.place = node->place;
@@ -77,7 +102,8 @@ Path read_path(const NodePtr& node, const Scene& scene) {
     for (const auto& item : items)
       path.vias.push_back(read_via(item, entry.find("duration"), path.vias.empty(), scene));
   }
-  if (const NodePtr profile = entry.find("profile")) word_of(*profile, {"cycloidal"}, "the profile");
+  if (const NodePtr profile = entry.find("profile"))
+    word_of(*profile, words_of(path_keys(), "profile"), "the profile");
   if (const NodePtr repeat = entry.find("repeat"))
     path.repeat = static_cast<int>(whole_number_of(*repeat, 0, kMostLaps, "repeat"));
   if (const NodePtr approach = entry.find("approach"))

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "notation/value.hpp"
+#include "plant/plant_keys.hpp"
 #include "plant/read_each.hpp"
 
 namespace mixloop {
@@ -14,8 +15,22 @@ constexpr double kSmallest = 1e-300;
 constexpr double kSmooth = 0.1;  // rad/s or m/s
 constexpr Range kPositive{kSmallest, kNoLimit, "a positive value"}, kNotNegative{0, kNoLimit, "0 or more"};
 
+const Keys& ripple_keys() {
+  static const Keys keys{
+      "the torque ripple",
+      {{"amplitude", form::numbers(), kRequired}, {"per_turn", form::numbers(), kRequired}}};
+  return keys;
+}
+
+const Keys& drive_friction_keys() {
+  static const Keys keys{
+      "the drives' friction",
+      {{"viscous", form::numbers()}, {"coulomb", form::numbers()}, {"smooth", form::numbers()}}};
+  return keys;
+}
+
 void read_ripple(const NodePtr& node, const Scene& scene, ActuatorSettings& settings) {
-  const Mapping entry(node, "the torque ripple", {"amplitude", "per_turn"});
+  const Mapping entry = read_mapping(node, ripple_keys());
   settings.ripple = read_each(entry.at("amplitude"), scene.motors(), kNumber,
                               {0, 1, "0 to 1, a share of the torque"}, "the ripple's amplitude");
   settings.ripple_per_turn =
@@ -28,7 +43,7 @@ void read_ripple(const NodePtr& node, const Scene& scene, ActuatorSettings& sett
 }
 
 void read_friction(const NodePtr& node, const Scene& scene, ActuatorSettings& settings) {
-  const Mapping entry(node, "the drives' friction", {"viscous", "coulomb", "smooth"});
+  const Mapping entry = read_mapping(node, drive_friction_keys());
   settings.viscous =
       read_each(entry.find("viscous"), scene.motors(), kTorque / kVelocity, kNotNegative, "viscous friction");
   settings.coulomb =
@@ -44,8 +59,17 @@ void read_friction(const NodePtr& node, const Scene& scene, ActuatorSettings& se
 
 }  // namespace
 
+const Keys& actuator_keys() {
+  static const Keys keys{"the actuators",
+                         {{"rate_limit", form::numbers()},
+                          {"time_constant", form::numbers()},
+                          {"ripple", form::mapping(ripple_keys)},
+                          {"friction", form::mapping(drive_friction_keys)}}};
+  return keys;
+}
+
 ActuatorSettings read_actuator_settings(const NodePtr& node, const Scene& scene) {
-  const Mapping entry(node, "the actuators", {"rate_limit", "time_constant", "ripple", "friction"});
+  const Mapping entry = read_mapping(node, actuator_keys());
   ActuatorSettings settings;
   settings.rate_limit =
       read_each(entry.find("rate_limit"), scene.motors(), kTorque / kSeconds, kPositive, "the rate limit");

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "notation/value.hpp"
+#include "plant/plant_keys.hpp"
 
 namespace mixloop {
 
@@ -14,12 +15,17 @@ namespace {
 
 constexpr double kLocalError = 1e-9;  // what `auto` keeps unless told
 
+std::vector<std::string> integrator_words() {
+  auto words = method_names();
+  words.emplace_back("auto");
+  return words;
+}
+
 void read_integrator(const Mapping& entry, PlantSettings& settings) {
   const NodePtr integrator = entry.find("integrator"), substeps = entry.find("substeps"),
                 local_error = entry.find("local_error");
   if (integrator) {
-    auto words = method_names();
-    words.emplace_back("auto");
+    const auto& words = words_of(plant_keys(), "integrator");
     const auto word = std::find(words.begin(), words.end(), text_of(*integrator, "the integrator"));
     if (word == words.end())
       throw InputError("unknown_value", integrator->place,
@@ -69,14 +75,27 @@ void require_stages_in_time(const PlantSettings& settings, const Place& place) {
 
 }  // namespace
 
+const Keys& plant_keys() {
+  static const Keys keys{"the plant",
+                         {{"integrator", form::word(integrator_words())},
+                          {"local_error", form::number()},
+                          {"control", form::word({"held", "continuous"})},
+                          {"substeps", form::whole()},
+                          {"command_delay", form::number()},
+                          {"torque_limit", form::numbers()},
+                          {"initial", form::numbers()},
+                          {"parameters", form::named(form::number())},
+                          {"sensors", form::mapping(sensor_keys)},
+                          {"actuators", form::mapping(actuator_keys)}}};
+  return keys;
+}
+
 PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene, double rate_hz) {
-  const Mapping entry(node, "the plant",
-                      {"integrator", "local_error", "control", "substeps", "command_delay", "torque_limit",
-                       "initial", "parameters", "sensors", "actuators"});
+  const Mapping entry = read_mapping(node, plant_keys());
   PlantSettings settings;
   read_integrator(entry, settings);
   if (const NodePtr control = entry.find("control"))
-    settings.continuous = word_of(*control, {"held", "continuous"}, "control") == 1;
+    settings.continuous = word_of(*control, words_of(plant_keys(), "control"), "control") == 1;
   if (settings.continuous) require_stages_in_time(settings, entry.at("control")->place);
   if (const NodePtr delay = entry.find("command_delay")) {
     settings.command_delay = number_of(*delay, kTime, "the command delay");

@@ -4,6 +4,7 @@
 #include "dynamics/scene/coordinate_values.hpp"
 #include "notation/value.hpp"
 #include "plant/faults.hpp"
+#include "plant/plant_keys.hpp"
 
 namespace mixloop {
 namespace {
@@ -29,14 +30,15 @@ Magnitude magnitude_of(Kind kind) {
   }
 }
 
+/// All but the last, which is parameters' and friction's.
+std::vector<std::string> kind_words() { return {Fault::kKinds.begin(), Fault::kKinds.end() - 1}; }
+
 class Reader {
  public:
   explicit Reader(const FaultGround& ground) : ground_(ground), scene_(ground.scene) {}
 
   Fault read(const NodePtr& node) const {
-    const Mapping entry(
-        node, "a fault",
-        {"at", "for", "motor", "sensor", "parameter", "friction", "kind", "magnitude", "value"});
+    const Mapping entry = read_mapping(node, fault_keys());
     const NodePtr motor = entry.find("motor"), sensor = entry.find("sensor"),
                   parameter = entry.find("parameter"), friction = entry.find("friction");
     if (!motor + !sensor + !parameter + !friction != 3)
@@ -101,9 +103,8 @@ class Reader {
     const auto coordinates =
         motor ? scene_.motors() : std::span<const Scene::Independent>(scene_.independent);
     fault.index = read_index(*which, coordinates);
-    // All but the last, which is parameters' and friction's.
-    static const std::vector<std::string> kinds(Fault::kKinds.begin(), Fault::kKinds.end() - 1);
-    fault.kind = static_cast<Kind>(word_of(*entry.at("kind"), kinds, "the kind of fault"));
+    fault.kind =
+        static_cast<Kind>(word_of(*entry.at("kind"), words_of(fault_keys(), "kind"), "the kind of fault"));
     const Magnitude what = magnitude_of(fault.kind);
     if (what == Magnitude::none) return refuse(entry, {"magnitude"}, "says nothing with this kind of fault");
     const Quantity& wanted = what == Magnitude::time    ? kSeconds
@@ -148,6 +149,20 @@ class Reader {
 };
 
 }  // namespace
+
+const Keys& fault_keys() {
+  static const Keys keys{"a fault",
+                         {{"at", form::number(), kRequired},
+                          {"for", form::number()},
+                          {"motor", form::text()},
+                          {"sensor", form::text()},
+                          {"parameter", form::text()},
+                          {"friction", form::number()},
+                          {"kind", form::word(kind_words())},
+                          {"magnitude", form::number()},
+                          {"value", form::number()}}};
+  return keys;
+}
 
 std::vector<Fault> read_faults(const NodePtr& node, const Scene& scene, bool friction, double rate_hz,
                                const std::vector<double>& values) {

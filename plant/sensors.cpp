@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "notation/value.hpp"
+#include "plant/plant_keys.hpp"
 #include "plant/read_each.hpp"
 
 namespace mixloop {
@@ -38,9 +39,20 @@ std::vector<std::int64_t> whole_ticks(const NodePtr& node, const Scene& scene, d
 
 }  // namespace
 
+const Keys& sensor_keys() {
+  static const Keys keys{"the sensors",
+                         {{"resolution", form::numbers()},
+                          {"noise", form::numbers()},
+                          {"bias", form::numbers()},
+                          {"delay", form::numbers()},
+                          {"drop", form::numbers()},
+                          {"velocity", form::word({"measured", "differentiated"})},
+                          {"velocity_filter", form::number()}}};
+  return keys;
+}
+
 SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, double rate_hz) {
-  const Mapping entry(node, "the sensors",
-                      {"resolution", "noise", "bias", "delay", "drop", "velocity", "velocity_filter"});
+  const Mapping entry = read_mapping(node, sensor_keys());
   const auto positions = [&](const char* key, const Range& range, const char* what) {
     return read_each(entry.find(key), scene.independent, kPosition, range, what);
   };
@@ -52,7 +64,7 @@ SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, dou
   settings.drop = read_each(entry.find("drop"), scene.independent, kNumber, {0, 1, "a probability, 0 to 1"},
                             "the share of readings that are dropped");
   if (const NodePtr velocity = entry.find("velocity"))
-    settings.differentiated = word_of(*velocity, {"measured", "differentiated"}, "the velocity") == 1;
+    settings.differentiated = word_of(*velocity, words_of(sensor_keys(), "velocity"), "the velocity") == 1;
   if (const NodePtr filter = entry.find("velocity_filter")) {
     if (!settings.differentiated)
       throw InputError("unknown_key", filter->place, "velocity_filter belongs to velocity: differentiated");

@@ -17,10 +17,12 @@
 #include <sstream>
 #include <system_error>
 
+#include "loop/cases.hpp"
 #include "loop/result.hpp"
 #include "notation/long_work.hpp"
 #include "notation/nearest.hpp"
 #include "notation/utf8.hpp"
+#include "processes/called_as.hpp"
 #include "processes/result_json.hpp"
 #include "processes/standard_output.hpp"
 
@@ -34,9 +36,9 @@ void say(const char* program, const std::string& message) {
   std::fputs(fmt::format("{}: {}\n", program, printable(message)).c_str(), stderr);
 }
 
-int report(bool json, const char* program, const std::string& code, const std::string& message,
+int report(bool json, const char* program, const std::string& code, const std::string& found,
            const Place& place, int status) {
-  const std::string where = to_string(place);
+  const std::string where = to_string(place), message = as_called(found);
   if (json)
     print_json({{"error", {{"code", code}, {"message", printable(message)}, {"where", where}}}});
   else
@@ -78,12 +80,20 @@ std::optional<std::string> misspelt(int argc, char** argv, const CLI::App& app) 
   return std::nullopt;
 }
 
+/// What all help ends with, for who reads it here.
+void footers_as_called(CLI::App& app) {
+  app.footer(as_called(app.get_footer()));
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    footers_as_called(*command);
+}
+
 /// Parses and calls back; errors are told. Throws std::system_error where stdout can't be written.
 int obeyed(int argc, char** argv, CLI::App& app, const int& status, bool json, const char* program) {
   try {
     app.parse(argc, argv);
     return status;
   } catch (const CLI::Success& help) {
+    footers_as_called(app);
     std::ostringstream out;
     const int result = app.exit(help, out, out);
     fmt::print("{}", out.str());
@@ -150,6 +160,12 @@ std::vector<Override> CommonOptions::overrides() const {
   return all;
 }
 
+void CommonOptions::take_case(const std::string& experiment, const std::string& name) {
+  if (name.empty()) return;
+  const auto of_case = case_named(experiment, name).sets;
+  sets.insert(sets.begin(), of_case.begin(), of_case.end());
+}
+
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command
       .add_option("--set", options.sets,
@@ -164,6 +180,11 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
 
 void add_experiment_option(CLI::App& command, std::string& experiment, const std::string& what) {
   command.add_option("experiment", experiment, what)->required()->type_name("EXPERIMENT");
+}
+
+void add_case_option(CLI::App& command, std::string& name) {
+  command.add_option("--case", name, "one of the experiment's cases, by its name, e.g. 'payload=2 kg'")
+      ->type_name("NAME");
 }
 
 void add_seconds_option(CLI::App& command, const std::string& name, double& seconds, const std::string& what,

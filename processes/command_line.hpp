@@ -24,12 +24,17 @@ struct CommonOptions {
   std::vector<std::string> sets;
 
   std::vector<Override> overrides() const;
+  /// Puts what a case of the experiment sets before `sets`; nothing where the name is empty.
+  void take_case(const std::string& experiment, const std::string& name);
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// The experiment file, first of a command's words.
 void add_experiment_option(CLI::App& command, std::string& experiment,
                            const std::string& what = "the experiment file");
+
+/// `--case`: one of the experiment's cases.
+void add_case_option(CLI::App& command, std::string& name);
 
 /// An option of so many seconds, from 0.05 to `most`.
 void add_seconds_option(CLI::App& command, const std::string& name, double& seconds, const std::string& what,

@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "mixloop/fault_t.hpp"
+#include "mixloop_lcm/fields.hpp"
 #include "notation/errors.hpp"
 #include "notation/long_work.hpp"
 #include "runtime/bus/log_reader.hpp"
@@ -229,7 +229,7 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
                    [](const LogSession& a, const LogSession& b) { return a.states > b.states; });
   if (sessions.empty())
     throw InputError("no_states", {log.string()},
-                     "no message of type mixloop.state_t on a channel " + prefix +
+                     "no message of type mixloop_lcm.state_t on a channel " + prefix +
                          "STATE; expected the log of a run (another prefix? --channel-prefix)");
   return sessions;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mixloop/timing_t.hpp"
+#include "mixloop_lcm/fields.hpp"
 #include "plant/faults.hpp"
 #include "report/tick.hpp"
 

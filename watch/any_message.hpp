@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "mixloop/fields.hpp"
+#include "mixloop_lcm/fields.hpp"
 #include "runtime/bus/wire.hpp"
 
 namespace mixloop {

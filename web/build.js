@@ -3,6 +3,7 @@ import { fileURLToPath } from 'node:url';
 import path from 'node:path';
 import { build } from 'vite';
 import { viteSingleFile } from 'vite-plugin-singlefile';
+import { notices } from './notices.js';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const out = path.resolve(process.argv[2] ?? path.join(here, 'dist'));
@@ -12,7 +13,7 @@ for (const page of ['report', 'view']) {
     configFile: false,
     root: path.join(here, page),
     logLevel: 'warn',
-    plugins: [viteSingleFile({ removeViteModuleLoader: true })],
+    plugins: [notices(), viteSingleFile({ removeViteModuleLoader: true })],
     build: {
       outDir: path.join(out, page),
       emptyOutDir: true,

@@ -6,6 +6,7 @@
 #include "dynamics/scene/canonical.hpp"
 #include "dynamics/scene/continuous_angles.hpp"
 #include "dynamics/scene/draft.hpp"
+#include "dynamics/scene/scene_keys.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
 
@@ -19,7 +20,7 @@ void read_name(const Mapping& root, Scene& scene) {
 }
 
 void read_end_effector(const Mapping& root, SceneDraft& draft) {
-  const Mapping entry(root.at("end_effector"), "the end effector", {"frame", "point", "axes"});
+  const Mapping entry = read_mapping(root.at("end_effector"), end_effector_keys());
   auto& end_effector = draft.scene.end_effector;
   end_effector.frame = draft.frame(entry);
   end_effector.point = draft.vector(entry.find("point"), kLength, "the end effector's point", draft.fixed);
@@ -65,10 +66,37 @@ void read_singularities(const Mapping& root, SceneDraft& draft) {
 
 }  // namespace
 
+const Keys& end_effector_keys() {
+  static const Keys keys{"the end effector",
+                         {{"frame", form::text(), kRequired},
+                          {"point", form::numbers()},
+                          {"axes", form::list(form::word({"x", "y", "z"}))}}};
+  return keys;
+}
+
+const Keys& scene_keys() {
+  using namespace form;
+  static const Keys keys{
+      "the scene",
+      {{"name", text()},
+       {"constants", named(number())},
+       {"parameters", named(number())},
+       {"motors", one_of({list(text()), named(word({"rotary", "linear"}))}), kRequired},
+       {"coordinates", list(text()), kRequired},
+       {"constraints", named(number()), kRequired},
+       {"transforms", list(mapping(transform_keys)), kRequired},
+       {"bodies", list(mapping(body_keys)), kRequired},
+       {"loads", list(one_of({mapping(load_keys), mapping(coordinate_load_keys)}))},
+       {"gravity", numbers()},
+       {"end_effector", mapping(end_effector_keys), kRequired},
+       {"home", named(number())},
+       {"singularities", named(number())},
+       {"solids", list(one_of({mapping(box_keys), mapping(sphere_keys), mapping(round_keys)}))}}};
+  return keys;
+}
+
 Scene load_scene(const NodePtr& document) {
-  const Mapping root(document, "the scene",
-                     {"name", "constants", "parameters", "motors", "coordinates", "constraints", "transforms",
-                      "bodies", "loads", "gravity", "end_effector", "home", "singularities", "solids"});
+  const Mapping root = read_mapping(document, scene_keys());
   SceneDraft draft;
   Scene& scene = draft.scene;
   read_name(root, scene);

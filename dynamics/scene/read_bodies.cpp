@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/scene/draft.hpp"
+#include "dynamics/scene/scene_keys.hpp"
 
 namespace mixloop {
 namespace {
@@ -10,17 +11,29 @@ namespace {
 constexpr std::size_t kMostBodies = 1000;
 constexpr std::size_t kMostLoads = 1000;
 
+/// In the order of Scene::Body::inertia.
+const Keys& inertia_keys() {
+  static const Keys keys{"an inertia",
+                         {{"xx", form::number(), kRequired},
+                          {"yy", form::number(), kRequired},
+                          {"zz", form::number(), kRequired},
+                          {"xy", form::number()},
+                          {"xz", form::number()},
+                          {"yz", form::number()}}};
+  return keys;
+}
+
 void read_inertia(const NodePtr& node, Scene::Body& body, SceneDraft& draft) {
-  static const std::vector<std::string> names = {"xx", "yy", "zz", "xy", "xz", "yz"};
-  const Mapping entry(node, "an inertia", names);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const NodePtr element = i < 3 ? entry.at(names[i]) : entry.find(names[i]);
-    if (element) body.inertia[i] = draft.formula(*element, kInertia, "I_" + names[i], draft.fixed);
+  const Mapping entry = read_mapping(node, inertia_keys());
+  for (std::size_t i = 0; i < body.inertia.size(); ++i) {
+    const auto& [name, form, required] = inertia_keys().all[i];
+    const NodePtr element = required ? entry.at(name) : entry.find(name);
+    if (element) body.inertia[i] = draft.formula(*element, kInertia, "I_" + name, draft.fixed);
   }
 }
 
 Scene::Load load_at_point(const NodePtr& item, SceneDraft& draft, const Scope& timed) {
-  const Mapping entry(item, "a load", {"frame", "point", "force", "moment"});
+  const Mapping entry = read_mapping(item, load_keys());
   Scene::Load load;
   load.frame = draft.frame(entry);
   load.point = draft.vector(entry.find("point"), kLength, "the point", draft.fixed);
@@ -30,7 +43,7 @@ Scene::Load load_at_point(const NodePtr& item, SceneDraft& draft, const Scope& t
 }
 
 Scene::CoordinateLoad load_at_coordinate(const NodePtr& item, SceneDraft& draft) {
-  const Mapping entry(item, "a load at a coordinate", {"coordinate", "stiffness", "rest", "damping"});
+  const Mapping entry = read_mapping(item, coordinate_load_keys());
   Scene::CoordinateLoad load;
   load.coordinate = draft.coordinate(entry);
   const Formula& constraint = draft.scene.coordinates[static_cast<std::size_t>(load.coordinate)].constraint;
@@ -49,10 +62,38 @@ Scene::CoordinateLoad load_at_coordinate(const NodePtr& item, SceneDraft& draft)
 
 }  // namespace
 
+const Keys& load_keys() {
+  static const Keys keys{"a load",
+                         {{"frame", form::text(), kRequired},
+                          {"point", form::numbers()},
+                          {"force", form::numbers()},
+                          {"moment", form::numbers()}}};
+  return keys;
+}
+
+const Keys& coordinate_load_keys() {
+  static const Keys keys{"a load at a coordinate",
+                         {{"coordinate", form::text(), kRequired},
+                          {"stiffness", form::number()},
+                          {"rest", form::number()},
+                          {"damping", form::number()}}};
+  return keys;
+}
+
+const Keys& body_keys() {
+  static const Keys keys{"a body",
+                         {{"name", form::text()},
+                          {"frame", form::text(), kRequired},
+                          {"mass", form::number(), kRequired},
+                          {"center_of_mass", form::numbers()},
+                          {"inertia", form::mapping(inertia_keys)}}};
+  return keys;
+}
+
 void read_bodies(const Mapping& root, SceneDraft& draft) {
   for (const auto& item : items_within(root.at("bodies"), 1, kMostBodies, "the bodies")) {
     Scene::Body body;
-    const Mapping entry(item, "a body", {"name", "frame", "mass", "center_of_mass", "inertia"});
+    const Mapping entry = read_mapping(item, body_keys());
     body.place = item->place;
     body.frame = draft.frame(entry);
     const NodePtr name = entry.find("name");

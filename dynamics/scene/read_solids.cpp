@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/scene/draft.hpp"
+#include "dynamics/scene/scene_keys.hpp"
 #include "notation/value.hpp"
 
 namespace mixloop {
@@ -41,7 +42,7 @@ Triple triple_in(const Mapping& entry, const char* key, SceneDraft& draft) {
 }
 
 void read_box(const NodePtr& item, Scene::Solid& solid, SceneDraft& draft) {
-  const Mapping entry(item, "a box", {"frame", "shape", "size", "at"});
+  const Mapping entry = read_mapping(item, box_keys());
   const Place& place = entry.at("size")->place;
   solid.size = triple_in(entry, "size", draft);
   for (const double edge : solid.size) positive(edge, "an edge of a box", place);
@@ -49,14 +50,15 @@ void read_box(const NodePtr& item, Scene::Solid& solid, SceneDraft& draft) {
 }
 
 void read_sphere(const NodePtr& item, Scene::Solid& solid, SceneDraft& draft) {
-  const Mapping entry(item, "a sphere", {"frame", "shape", "radius", "at"});
+  const Mapping entry = read_mapping(item, sphere_keys());
   solid.radius = radius_in(entry, draft);
   solid.from = solid.to = triple_in(entry, "at", draft);
 }
 
 void read_round(const NodePtr& item, Scene::Solid& solid, SceneDraft& draft) {
-  const Mapping entry(item, solid.shape == Scene::Solid::Shape::capsule ? "a capsule" : "a cylinder",
-                      {"frame", "shape", "radius", "from", "to"});
+  Keys keys = round_keys();
+  keys.what = solid.shape == Scene::Solid::Shape::capsule ? "a capsule" : "a cylinder";
+  const Mapping entry = read_mapping(item, keys);
   solid.radius = radius_in(entry, draft);
   solid.from = triple_in(entry, "from", draft);
   solid.to = triple_in(entry, "to", draft);
@@ -84,6 +86,34 @@ Scene::Solid solid_in(const NodePtr& item, SceneDraft& draft) {
 }
 
 }  // namespace
+
+const Keys& box_keys() {
+  static const Keys keys{"a box",
+                         {{"frame", form::text(), kRequired},
+                          {"shape", form::word({"box"}), kRequired},
+                          {"size", form::numbers(), kRequired},
+                          {"at", form::numbers()}}};
+  return keys;
+}
+
+const Keys& sphere_keys() {
+  static const Keys keys{"a sphere",
+                         {{"frame", form::text(), kRequired},
+                          {"shape", form::word({"sphere"}), kRequired},
+                          {"radius", form::number(), kRequired},
+                          {"at", form::numbers()}}};
+  return keys;
+}
+
+const Keys& round_keys() {
+  static const Keys keys{"a cylinder or a capsule",
+                         {{"frame", form::text(), kRequired},
+                          {"shape", form::word({"cylinder", "capsule"}), kRequired},
+                          {"radius", form::number(), kRequired},
+                          {"from", form::numbers()},
+                          {"to", form::numbers()}}};
+  return keys;
+}
 
 void read_solids(const Mapping& root, SceneDraft& draft) {
   const NodePtr node = root.find("solids");

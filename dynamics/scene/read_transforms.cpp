@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "dynamics/scene/draft.hpp"
+#include "dynamics/scene/scene_keys.hpp"
 #include "notation/utf8.hpp"
 
 namespace mixloop {
@@ -62,12 +63,22 @@ void add_transform(const Mapping& entry, SceneDraft& draft) {
 
 }  // namespace
 
+const Keys& transform_keys() {
+  static const Keys keys{"a transform",
+                         {{"from", form::text(), kRequired},
+                          {"to", form::text(), kRequired},
+                          {"theta", form::number()},
+                          {"s", form::number()},
+                          {"a", form::number()},
+                          {"alpha", form::number()}}};
+  return keys;
+}
+
 void read_transforms(const Mapping& root, SceneDraft& draft) {
   std::vector<Mapping> pending;
   std::map<std::string, int> lines;
   for (const auto& item : items_within(root.at("transforms"), 1, kMostTransforms, "the transforms")) {
-    pending.emplace_back(item, "a transform",
-                         std::vector<std::string>{"from", "to", "theta", "s", "a", "alpha"});
+    pending.push_back(read_mapping(item, transform_keys()));
     text_of(*pending.back().at("from"), "a frame's name");
     const NodePtr to = pending.back().at("to");
     const std::string& name = text_of(*to, "a frame's name");

@@ -65,7 +65,7 @@ void require_multicast_route(const MulticastGroup& group) {
                      (loopback ? "up, and no route leads to multicast addresses" : "down") +
                      ". As root:\n  ip link set lo up\n  ip route add 224.0.0.0/4 dev lo\n"
                      "or run the same command in a network namespace of its own, without root: "
-                     "tools/in-namespace COMMAND...");
+                     "mixloop netns COMMAND...");
 }
 
 }  // namespace mixloop

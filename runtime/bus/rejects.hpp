@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "mixloop/timing_t.hpp"
+#include "mixloop_lcm/fields.hpp"
 
 namespace mixloop {
 

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "mixloop/fields.hpp"
+#include "mixloop_lcm/fields.hpp"
 #include "runtime/bus/rejects.hpp"
 
 namespace mixloop {

@@ -33,7 +33,7 @@ Finding multicast_finding(const BusOptions& bus) {
     return {"multicast route", "to " + group.address, Fitness::good, ""};
   } catch (const RunFault&) {
     return {"multicast route", "none to " + group.address, Fitness::bad,
-            "ip link set lo up; ip route add 224.0.0.0/4 dev lo   (or run under tools/in-namespace)"};
+            "ip link set lo up; ip route add 224.0.0.0/4 dev lo   (or run under mixloop netns)"};
   }
 }
 

@@ -177,7 +177,7 @@ Finding publishers_finding(const BusOptions& bus, nanoseconds span) try {
     for (const auto& text : one.heard) who += (who.empty() ? "" : ", ") + text;
   if (who.empty()) return {"other publishers", "none on " + bus.prefix + "*", Fitness::good, ""};
   return {"other publishers", who, Fitness::fair,
-          "give this run channels of its own: --channel-prefix MINE_, or run under tools/in-namespace"};
+          "give this run channels of its own: --channel-prefix MINE_, or run under mixloop netns"};
 } catch (const RunFault& fault) {
   return {"other publishers", "not heard: no bus", Fitness::bad, "mend the multicast route first"};
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "mixloop/sim_control_t.hpp"
+#include "mixloop_lcm/fields.hpp"
 
 namespace mixloop {
 

@@ -53,8 +53,9 @@ std::string logged_as(const std::string& channel, const std::string& data) {
 
 TEST(Replay, SaysWhyALogHasNoCommandForIt) {
   const ScratchFolder folder;
-  for (const auto& [channel, message] : {std::pair{"MIXLOOP_COMMAND", "another type than mixloop.command_t"},
-                                         {"SOMEBODYS_COMMAND", "no message on MIXLOOP_COMMAND"}}) {
+  for (const auto& [channel, message] :
+       {std::pair{"MIXLOOP_COMMAND", "another type than mixloop_lcm.command_t"},
+        {"SOMEBODYS_COMMAND", "no message on MIXLOOP_COMMAND"}}) {
     auto replay = replayed(folder.write(channel, logged_as(channel, std::string(60, 'x'))));
     EXPECT_EQ(replay.wait(), 2);
     EXPECT_EQ(replay.json()["error"]["code"], "no_commands");

@@ -9,7 +9,7 @@ namespace {
 
 /// The names in back quotes of a cell.
 std::vector<std::string> names_in(const std::string& cell) {
-  static const std::regex quoted("`([a-z/]+)`");
+  static const std::regex quoted("`([a-z_/]+)`");
   std::vector<std::string> names;
   for (std::sregex_iterator at(cell.begin(), cell.end(), quoted), end; at != end; ++at) {
     std::string name = (*at)[1];

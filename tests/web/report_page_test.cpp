@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+
 #include "tests/support/mixed_motors.hpp"
 #include "tests/web/look.hpp"
 
 namespace mixloop {
 namespace {
+
+using testing::HasSubstr;
 
 /// A folder with a kept run and its page.
 class ReportPage : public testing::Test {
@@ -55,6 +59,17 @@ TEST_F(ReportPage, BeginsAComparisonWithWhatDiffers) {
 TEST_F(ReportPage, ShowsWhatThePlantSaidOfItsTiming) {
   ASSERT_NO_FATAL_FAILURE(keep("run", {"--speed", "1"}));
   look("timing.mjs", {page});
+}
+
+TEST_F(ReportPage, CarriesTheLicencesOfWhatItIsMadeOf) {
+  ASSERT_NO_FATAL_FAILURE(keep("simulate"));
+  const std::string report = bytes_of(page), view = bytes_of(bin("../share/mixloop/view.html"));
+  for (const std::string& text : {report, view}) {
+    EXPECT_THAT(text, HasSubstr("Leon Sorokin"));
+    EXPECT_THAT(text,
+                HasSubstr("The above copyright notice and this permission notice shall be included in"));
+  }
+  EXPECT_THAT(view, HasSubstr("three.js authors"));
 }
 
 }  // namespace

@@ -226,7 +226,8 @@ TEST_F(MachineCodeTest, TheInterpreterServesWithoutACompiler) {
   ::setenv("MIXLOOP_CXX", "", 1);
   const auto equations = equations_of(robot_, Evaluation::machine_code, {Purpose::forward_dynamics});
   EXPECT_EQ(equations->evaluation(), Evaluation::interpreter);
-  EXPECT_EQ(equations->complaint(), "no C++ compiler (c++, g++, clang++, $CXX)");
+  EXPECT_EQ(equations->complaint(),
+            "no C++ compiler (c++, g++, clang++, $CXX; on Debian: apt-get install g++)");
 }
 
 TEST_F(MachineCodeTest, NoEvaluationOfAnyPurposeAllocates) {

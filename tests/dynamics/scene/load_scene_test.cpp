@@ -219,18 +219,15 @@ TEST(ParameterValues, AreCheckedAsTheScenes) {
 }
 
 /// What users are told.
-const std::string& documentation() {
-  static const std::string text = [] {
-    std::ifstream stream(MIXLOOP_DOCS "/scenes.md");
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-  }();
-  return text;
+std::string page(const std::string& name) {
+  std::ifstream in(MIXLOOP_DOCS "/" + name);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST(SceneDocumentation, ItsFirstExampleLoads) {
-  const auto begin = documentation().find('\n', documentation().find("```yaml")) + 1;
-  const Scene scene =
-      loaded(documentation().substr(begin, documentation().find("```", begin) - begin), "scenes.md");
+  const std::string text = page("scenes.md");
+  const auto begin = text.find('\n', text.find("```yaml")) + 1;
+  const Scene scene = loaded(text.substr(begin, text.find("```", begin) - begin), "scenes.md");
   EXPECT_EQ(scene.n(), 1);
   EXPECT_EQ(number(scene.transforms[0].a), 0.3);
 }
@@ -238,8 +235,9 @@ TEST(SceneDocumentation, ItsFirstExampleLoads) {
 class RefusedScene : public testing::TestWithParam<BadInput> {};
 
 TEST_P(RefusedScene, WithItsPlace) {
-  EXPECT_NE(documentation().find("| `" + std::string(GetParam().code) + "` |"), std::string::npos)
-      << "not in docs/scenes.md";
+  static const std::string errors = page("errors.md");
+  EXPECT_NE(errors.find("| `" + std::string(GetParam().code) + "` |"), std::string::npos)
+      << "not in docs/errors.md";
   expect_refused(GetParam(), [](const std::string& text, const std::string& file) { loaded(text, file); });
 }
 

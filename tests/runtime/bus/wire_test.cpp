@@ -172,5 +172,18 @@ TEST(Rejects, AreCountedByCause) {
   EXPECT_EQ(kRejects.back().cause, Reject::sender);
 }
 
+// Old logs and strangers' programs go by them; a package's name is no part of them.
+TEST(Wire, FingerprintsAreThoseOfTheFirstVersion) {
+  const auto of = [](std::int64_t hash) { return static_cast<std::uint64_t>(hash); };
+  EXPECT_EQ(of(state_t::getHash()), 0x1652a39f305f214e);
+  EXPECT_EQ(of(reference_t::getHash()), 0x9ce38080ae1734f1);
+  EXPECT_EQ(of(command_t::getHash()), 0x8da514a34550a43a);
+  EXPECT_EQ(of(truth_t::getHash()), 0xe4966e410d77703c);
+  EXPECT_EQ(of(timing_t::getHash()), 0x3f90acd43032571b);
+  EXPECT_EQ(of(sim_control_t::getHash()), 0x4ffb3376868eb89e);
+  EXPECT_EQ(of(fault_t::getHash()), 0x44653a2b9631427f);
+  EXPECT_EQ(of(stop_t::getHash()), 0xdaec020383f3dc4a);
+}
+
 }  // namespace
 }  // namespace mixloop

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "mixloop/reference_t.hpp"
+#include "mixloop_lcm/fields.hpp"
 #include "notation/sha256.hpp"
 
 namespace mixloop::toy {

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "notation/keys.hpp"
+
+namespace mixloop {
+
+/// What may stand in an experiment's `controller`, and in its `safety`.
+const Keys& controller_keys();
+const Keys& safety_keys();
+
+}  // namespace mixloop

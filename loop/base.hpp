@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "notation/document.hpp"
+
+namespace mixloop {
+
+/// An experiment's document laid over the one that its `base` names, if any, whose path counts from the
+/// folder of `file`: mappings entry by entry, all else in its place; an empty entry takes the base's away.
+/// Scenes that the base names still count from its own folder. Throws InputError: "no_such_file",
+/// "cyclic_definition" where a base leads back to itself.
+NodePtr on_base(const NodePtr& document, const std::filesystem::path& file);
+
+}  // namespace mixloop

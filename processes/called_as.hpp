@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace mixloop {
+
+/// The folder of the running executable, where its siblings lie.
+std::string own_folder();
+
+/// What we install beside our commands: a file or folder below share/mixloop.
+std::string shared_file(const std::string& name);
+
+/// A text for the person who called us, whose commands work from where they stand: `mixloop COMMAND` by its
+/// path where PATH finds no mixloop or another one, `experiments/FILE.yaml` and `scenes/FILE.yaml` where they
+/// are installed unless there is such a file here.
+std::string as_called(const std::string& text);
+
+}  // namespace mixloop

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// A program against libmixloop's headers alone. What it computes is what the commands compute.
+#include <gmock/gmock.h>
+
+#include <mixloop/mixloop.hpp>
+
+#include "tests/support/command.hpp"
+#include "tests/support/paths.hpp"
+
+namespace mixloop {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kTwoRods = R"(
+parameters: {tip: 1 kg}
+motors: [shoulder, elbow]
+coordinates: [q1, q2]
+constraints: {q1: shoulder, q2: elbow}
+transforms:
+  - {from: 0, to: upper, theta: q1, a: 1 m}
+  - {from: upper, to: lower, theta: q2, a: 1 m}
+bodies:
+  - {frame: upper, mass: 1 kg}
+  - {frame: lower, mass: tip}
+gravity: [0, -10 m/s^2, 0]
+end_effector: {frame: lower, axes: [x, y]}
+)";
+
+std::vector<double> evaluated(Equations& equations, Purpose purpose, const State& at,
+                              std::span<const double> input = {}) {
+  std::vector<double> out(equations.output_size(purpose));
+  EXPECT_EQ(equations.evaluate(purpose, at, input, out), Status::ok);
+  return out;
+}
+
+template <class Call>
+Error error_of(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {"", {}, ""};
+}
+
+// Stretched out, the far mass has arms of 2 m and 1 m.
+TEST(Library, TwoRodsByHand) {
+  const Scene scene = Scene::parse(kTwoRods);
+  EXPECT_THAT(scene.independent(), ElementsAre("shoulder", "elbow"));
+  Equations equations(scene, {Purpose::mass_matrix, Purpose::bias, Purpose::energy}, Evaluation::interpreter);
+  const double stretched[] = {0, 0}, turning[] = {1, 0};
+  EXPECT_THAT(evaluated(equations, Purpose::mass_matrix, {stretched, {}}), ElementsAre(5, 2, 2, 1));
+  EXPECT_THAT(evaluated(equations, Purpose::bias, {stretched, {}}), ElementsAre(30, 10));
+  EXPECT_EQ(evaluated(equations, Purpose::energy, {stretched, turning})[0], 2.5);
+
+  Equations heavy = equations;
+  heavy.set_parameters(std::vector<double>{3});
+  EXPECT_THAT(evaluated(heavy, Purpose::mass_matrix, {stretched, {}}), ElementsAre(13, 6, 6, 3));
+  EXPECT_THAT(evaluated(equations, Purpose::mass_matrix, {stretched, {}}), ElementsAre(5, 2, 2, 1))
+      << "a copy is another's";
+}
+
+TEST(Library, HasTheBitsOfMixloopDynamics) {
+  Command command({bin("mixloop"), "dynamics", robot(), "--psi", "1,2,3", "--psid", "0.1,0.2,0.3", "--tau",
+                   "1,-2,0.5", "--json"});
+  ASSERT_EQ(command.wait(), 0) << command.err();
+  const auto json = command.json();
+  Equations equations(Scene::load(robot()),
+                      {Purpose::forward_dynamics, Purpose::mass_matrix, Purpose::bias, Purpose::end_effector},
+                      Evaluation::reference);
+  const double psi[] = {1, 2, 3}, psid[] = {0.1, 0.2, 0.3}, tau[] = {1, -2, 0.5};
+  const auto psidd = evaluated(equations, Purpose::forward_dynamics, {psi, psid}, tau);
+  EXPECT_EQ(psidd, json.at("psidd").get<std::vector<double>>());
+  EXPECT_EQ(evaluated(equations, Purpose::bias, {psi, psid}), json.at("bias").get<std::vector<double>>());
+  std::vector<double> mass;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) mass.push_back(json.at("mass_matrix").at(i).at(j).get<double>());
+  EXPECT_EQ(evaluated(equations, Purpose::mass_matrix, {psi, psid}), mass);
+  const auto hand = evaluated(equations, Purpose::end_effector, {psi, psid}, psidd);
+  EXPECT_EQ(std::vector<double>(hand.begin(), hand.begin() + 3),
+            json.at("end_effector").at("position").get<std::vector<double>>());
+}
+
+// 19 states fill lanes and leave some over, whether the processor has 4 or 8.
+TEST(Library, ManyStatesHaveTheBitsOfOneAfterTheOther) {
+  const Purpose purposes[] = {Purpose::forward_dynamics, Purpose::inverse_dynamics, Purpose::mass_matrix};
+  for (const Evaluation how : {Evaluation::machine_code, Evaluation::interpreter}) {
+    Equations equations(Scene::load(robot()), {std::begin(purposes), std::end(purposes)}, how);
+    equations.set_parameters(std::vector<double>{3});
+    for (const Purpose purpose : purposes) {
+      const std::size_t states = 19, takes = equations.input_size(purpose),
+                        gives = equations.output_size(purpose);
+      std::vector<double> psi, psid, input;
+      for (std::size_t i = 0; i < 3 * states; ++i) {
+        psi.push_back(0.37 * static_cast<double>(i % 11) - 1);
+        psid.push_back(0.13 * static_cast<double>(i % 7) - 0.4);
+      }
+      for (std::size_t i = 0; i < takes * states; ++i) input.push_back(0.7 * static_cast<double>(i % 5) - 1);
+      const std::vector<double> t(states, 0.0);
+      std::vector<double> all(states * gives), one(gives);
+      ASSERT_EQ(equations.evaluate_all(purpose, psi, psid, t, input, all), Status::ok);
+      for (std::size_t k = 0; k < states; ++k) {
+        const auto row = [k](const std::vector<double>& values, std::size_t size) {
+          return std::span(values).subspan(k * size, size);
+        };
+        ASSERT_EQ(equations.evaluate(purpose, {row(psi, 3), row(psid, 3)}, row(input, takes), one),
+                  Status::ok);
+        ASSERT_THAT(row(all, gives), testing::ElementsAreArray(one)) << "state " << k;
+      }
+    }
+  }
+}
+
+TEST(Library, SimulatesWithTheBytesOfTheCommandByEveryRoute) {
+  Command command({bin("mixloop"), "simulate", experiment("paper"), "--json"});
+  ASSERT_EQ(command.wait(), 0) << command.err();
+  const std::string bytes = command.json().at("trajectory_sha256");
+  const Experiment paper = Experiment::load(experiment("paper"));
+  const Result result = simulate(paper);
+  EXPECT_EQ(result.trajectory_sha256, bytes);
+  EXPECT_EQ(result.verdict, "held");
+  EXPECT_EQ(result.max_position_error, command.json().at("max_position_error").get<double>());
+
+  Controller controller(paper);
+  const auto law = [&](const State& now, const Reference& desired, std::span<double> tau) {
+    controller.torque(now, desired, tau);
+  };
+  EXPECT_EQ(simulate(paper, law).trajectory_sha256, bytes);
+
+  const Plan plan(paper);
+  Plant plant(paper, plan);
+  std::vector<double> tau(3), psi, applied;
+  const auto append = [](std::vector<double>& to, std::span<const double> row) {
+    to.insert(to.end(), row.begin(), row.end());
+  };
+  for (std::int64_t k = 0; k <= plan.ticks(); ++k) {
+    append(psi, plant.state().psi);
+    controller.torque(plant.measured(), plan.at(k), tau);
+    append(applied, tau);
+    plant.advance(tau);
+  }
+  EXPECT_EQ(psi, result.psi);
+  EXPECT_EQ(applied, result.tau);
+}
+
+TEST(Library, ACopyOfAPlantGoesOnWithTheSameBytes) {
+  const Experiment encoder = Experiment::load(experiment("encoder"));
+  const Plan plan(encoder);
+  Plant plant(encoder, plan);
+  const double push[] = {0.3, -0.2, 0.1}, pull[] = {-0.1, 0.4, 0};
+  for (int k = 0; k < 50; ++k) plant.advance(push);
+  Plant copy = plant;
+  for (Plant* one : {&plant, &copy})
+    for (int k = 0; k < 50; ++k) one->measured(), one->advance(pull);
+  const State state = plant.measured(), other = copy.measured();
+  EXPECT_THAT(state.psi, testing::ElementsAreArray(other.psi));
+  EXPECT_THAT(state.psid, testing::ElementsAreArray(other.psid));
+  EXPECT_THAT(plant.state().psi, testing::ElementsAreArray(copy.state().psi));
+}
+
+TEST(Library, ErrorsHaveCodeAndPlace) {
+  std::string text = kTwoRods;
+  text.replace(text.find("mass: tip"), 9, "weight: 3");
+  const Error unknown = error_of([&] { Scene::parse(text, "rods.yaml"); });
+  EXPECT_EQ(unknown.code(), "unknown_key");
+  EXPECT_EQ(unknown.place().file, "rods.yaml");
+  EXPECT_EQ(unknown.place().line, 11);
+  EXPECT_THAT(unknown.what(), HasSubstr("rods.yaml:11:20: "));
+  EXPECT_EQ(unknown.what(), "rods.yaml:11:20: " + unknown.message());
+
+  Equations equations(Scene::parse(kTwoRods), {Purpose::bias}, Evaluation::interpreter);
+  const double psi[] = {0, 0};
+  double out[4];
+  EXPECT_EQ(error_of([&] {
+              equations.evaluate(Purpose::mass_matrix, {psi, {}}, {}, out);
+            }).code(),
+            "not_asked_for");
+  EXPECT_THAT(error_of([&] {
+                equations.evaluate(Purpose::bias, {psi, {}}, {}, out);
+              }).what(),
+              HasSubstr("out has 4 numbers; expected 2"));
+  EXPECT_EQ(error_of([&] { Plan(Experiment::load(experiment("paper"), {"path.line.to=[9, 0, 0]"})); }).code(),
+            "unreachable");
+  EXPECT_EQ(error_of([&] {
+              const Experiment continuous = Experiment::load(experiment("paper_continuous"));
+              Plant(continuous, Plan(continuous));
+            }).code(),
+            "out_of_range");
+}
+
+TEST(Library, WhatALawThrowsComesThrough) {
+  const auto law = [](const State&, const Reference&, std::span<double>) { throw std::domain_error("mine"); };
+  EXPECT_THROW(simulate(Experiment::load(experiment("paper")), law), std::domain_error);
+}
+
+TEST(Library, ASingularPoseIsAStatusAndNoException) {
+  Equations equations(Scene::parse(kTwoRods), {Purpose::forward_dynamics}, Evaluation::interpreter);
+  equations.set_parameters(std::vector<double>{0});
+  const double psi[] = {0, 0};
+  double out[2];
+  EXPECT_EQ(equations.evaluate(Purpose::forward_dynamics, {psi, {}}, {}, out), Status::not_finite);
+}
+
+}  // namespace
+}  // namespace mixloop
