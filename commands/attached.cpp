@@ -23,7 +23,7 @@ RunFault no_plant_heard(const Bus& bus, const std::string& which) {
 Result attached(const Experiment& experiment, const BusOptions& options, nanoseconds first_wait,
                 nanoseconds patience, const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
-  require_memory(experiment, plan);
+  require_room(experiment, plan);
   Bus bus(options);
   SessionJudge judge(experiment, plan);
   say_complaint(judge.equations().complaint());

@@ -42,7 +42,6 @@ Result simulated(Experiment loaded, const std::string& out, const StopSwitch& st
     warnings.push_back(why);
     if (!quiet) fmt::print(stderr, "warning: {}\n", why);
   }
-  require_memory(experiment, plan);
   if (!out.empty()) begin_run_folder(out);
   RecordedPlant plant(experiment, plan);
   say_complaint(plant.plant().equations().complaint());

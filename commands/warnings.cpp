@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "loop/recorded_plant.hpp"
 #include "loop/review.hpp"
 #include "stability/warning.hpp"
 
@@ -10,6 +11,7 @@ namespace mixloop {
 
 std::vector<std::string> warnings_of(const Experiment& experiment, const Plan& plan, bool quiet) {
   std::vector<std::string> warnings = experiment.scene->warnings;
+  if (auto room = require_room(experiment, plan); !room.empty()) warnings.push_back(std::move(room));
   if (auto doubt = step_doubt(experiment, plan)) warnings.push_back(std::move(doubt->text));
   for (auto& warning : stability_warnings(experiment, plan)) warnings.push_back(std::move(warning));
   say(warnings, quiet);

@@ -10,23 +10,48 @@ namespace mixloop {
 namespace {
 
 const Experiment& checked(const Experiment& experiment, const Plan& plan) {
-  require_memory(experiment, plan);
+  require_room(experiment, plan);
   return experiment;
+}
+
+double record_bytes(const Experiment& experiment, const Plan& plan) {
+  return static_cast<double>(plan.ticks() + 3) *
+         static_cast<double>(Recorder::bytes_a_tick(*experiment.scene));
+}
+
+/// "the record of ... takes ... GB".
+std::string record_of(const Experiment& experiment, const Plan& plan, double bytes) {
+  return fmt::format("the record of {} ticks at {:g} Hz takes {:.3g} GB", plan.ticks(), experiment.rate_hz,
+                     bytes * 1e-9);
+}
+
+[[noreturn]] void refuse_record(const Experiment& experiment, const std::string& why) {
+  throw InputError("too_large", experiment.path.place,
+                   why + "; expected a shorter path, fewer laps or a lower rate");
 }
 
 }  // namespace
 
 void require_memory(const Experiment& experiment, const Plan& plan) {
-  const double ticks = static_cast<double>(plan.ticks());
-  const double bytes =
-      ticks * static_cast<double>(Recorder::bytes_a_tick(*experiment.scene) + sizeof(Arrival));
+  const double bytes = record_bytes(experiment, plan) +
+                       static_cast<double>(plan.ticks()) * static_cast<double>(sizeof(Arrival));
   const double free = free_memory();
   if (bytes <= free) return;
-  throw InputError(
-      "too_large", experiment.path.place,
-      fmt::format("the record of {:.0f} ticks at {:g} Hz takes {:.3g} GB of memory, and {:.3g} GB are free; "
-                  "expected a shorter path, fewer laps or a lower rate",
-                  ticks, experiment.rate_hz, bytes * 1e-9, free * 1e-9));
+  refuse_record(experiment, fmt::format("{} of memory, and {:.3g} GB are free",
+                                        record_of(experiment, plan, bytes), free * 1e-9));
+}
+
+std::string require_room(const Experiment& experiment, const Plan& plan) {
+  const double bytes = record_bytes(experiment, plan);
+  const double memory = free_memory();
+  if (bytes <= memory) return {};
+  const std::string record = record_of(experiment, plan, bytes);
+  const double disk = RecordRows::free_disk();
+  if (bytes > disk)
+    refuse_record(experiment, fmt::format("{}, and {:.3g} GB are free in memory, {:.3g} GB in {}", record,
+                                          memory * 1e-9, disk * 1e-9, RecordRows::folder()));
+  return fmt::format("{}, more than is free in memory: while it runs it lies in a file in {}", record,
+                     RecordRows::folder());
 }
 
 RecordedPlant::RecordedPlant(const Experiment& experiment, const Plan& plan)

@@ -7,8 +7,11 @@
 namespace mixloop {
 
 /// Throws InputError("too_large") where the record of a run takes more memory than is free here: before it is
-/// taken.
+/// taken. In real time it must lie there.
 void require_memory(const Experiment& experiment, const Plan& plan);
+/// The same where there is no room on disk either; else what is to be said of where it will lie (RecordRows),
+/// empty where that is memory.
+std::string require_room(const Experiment& experiment, const Plan& plan);
 
 /// A plant and the record of its run. It alone knows the order of things in a tick, in lockstep and in real
 /// time, so that whoever drives it, in this process or over the bus, gets the same bytes:
@@ -21,7 +24,7 @@ void require_memory(const Experiment& experiment, const Plan& plan);
 /// once tick k is recorded. Nothing allocates after construction.
 class RecordedPlant {
  public:
-  /// What is passed must outlive it. Throws what require_memory throws.
+  /// What is passed must outlive it. Throws what require_room throws.
   RecordedPlant(const Experiment& experiment, const Plan& plan);
 
   const Experiment& experiment() const { return experiment_; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loop/free_memory.hpp"
 #include "loop/position_error.hpp"
 
 namespace mixloop {
@@ -24,7 +25,7 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
       n_u_(experiment.scene->motors().size()),
       rate_hz_(experiment.rate_hz),
       limit_(experiment.position_error_limit),
-      rows_(static_cast<std::size_t>(plan.ticks() + 3) * width()),
+      rows_(static_cast<std::size_t>(plan.ticks() + 3) * width(), free_memory()),
       conditions_{-1, 1},
       zero_(n_, 0.0),
       hand_(kinematics_.outputs(Purpose::end_effector)) {

@@ -7,11 +7,12 @@
 
 #include "loop/experiment.hpp"
 #include "loop/measures.hpp"
+#include "loop/record_rows.hpp"
 #include "notation/sha256.hpp"
 
 namespace mixloop {
 
-/// Keeps a run in memory, tick by tick, and judges it. Nothing allocates after construction.
+/// Keeps a run, tick by tick, and judges it. Nothing allocates after construction.
 class Recorder {
  public:
   Recorder(const Experiment& experiment, const Plan& plan);
@@ -71,7 +72,7 @@ class Recorder {
   std::vector<int> axes_;
   std::size_t n_, n_u_;
   double rate_hz_, limit_;
-  std::vector<double> rows_;  ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work
+  RecordRows rows_;  ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work
   /// Changes kept of injected faults; past them the latest one stands for those before it.
   static constexpr std::size_t kInjectedKept = 1000;
   std::size_t row_of_conditions_ = 0;

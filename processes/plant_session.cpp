@@ -16,6 +16,20 @@
 
 namespace mixloop {
 
+namespace {
+
+/// No tick in real time may wait for a disk.
+const Experiment& with_room(const PlantLine& line, const Experiment& experiment, const Plan& plan) {
+  if (line.real_time) require_memory(experiment, plan);
+  return experiment;
+}
+
+}  // namespace
+
+PlantSession::PlantSession(const PlantLine& line, const Experiment& experiment, const Plan& plan,
+                           ReportLine& report)
+    : line_(line), run_(with_room(line, experiment, plan), plan), report_(report) {}
+
 Ending PlantSession::run(Bus& bus, const StopSwitch& stop, std::int64_t session, std::int64_t next_session) {
   say_complaint(run_.plant().equations().complaint());
   if (!run_.begin())

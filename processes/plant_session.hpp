@@ -12,8 +12,8 @@ namespace mixloop {
 /// One session of the plant on the bus, from tick 0 to its end. What is passed must outlive it.
 class PlantSession {
  public:
-  PlantSession(const PlantLine& line, const Experiment& experiment, const Plan& plan, ReportLine& report)
-      : line_(line), run_(experiment, plan), report_(report) {}
+  /// Throws InputError("too_large") where there is no room for the record.
+  PlantSession(const PlantLine& line, const Experiment& experiment, const Plan& plan, ReportLine& report);
 
   /// Runs it and, unless it is reset, judges and keeps it. Throws RunFault, the recorded part kept.
   Ending run(Bus& bus, const StopSwitch& stop, std::int64_t session, std::int64_t next_session);

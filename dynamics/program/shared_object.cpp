@@ -16,7 +16,8 @@ namespace {
 // The hash of the sources that write programs: a changed generator finds no entry of the old one's.
 constexpr const char* kGenerator = MIXLOOP_GENERATOR_HASH;
 
-constexpr const char* kNoCompiler = "no C++ compiler (c++, g++, clang++, $CXX)";
+constexpr const char* kNoCompiler =
+    "no C++ compiler (c++, g++, clang++, $CXX; on Debian: apt-get install g++)";
 
 std::string entry_key(const std::string& key, const Compiler& compiler) {
   Sha256 hash;

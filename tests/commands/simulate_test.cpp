@@ -223,7 +223,7 @@ TEST(Simulate, RefusesBadInputAndWritesNothing) {
                 "no integrator keeps"},
         BadLine{{experiment("paper"), "--set", "path.repeat=1000000", "--set", "path.duration=100 s"},
                 "too_large",
-                "GB of memory"},
+                "GB are free in memory"},
         BadLine{{experiment("paper"), "--evaluation", "fast"}, "command_line", "reference"},
         BadLine{{experiment("paper"), "--jsom"}, "command_line", "did you mean '--json'?"},
         BadLine{{experiment("paper"), "--set", "nonsense"}, "invalid_override", "key=value"},
