@@ -57,7 +57,7 @@ void follow_the_session(benchmark::State& loop) {
   SessionFollower f(0);
   for (auto _ : loop) {
     const Instant at = now();
-    benchmark::DoNotOptimize(f.would_follow(7, at) && f.follow(7, at));
+    benchmark::DoNotOptimize(f.would_follow(7, at) && f.follow(7, {}, at));
   }
 }
 BENCHMARK(follow_the_session);

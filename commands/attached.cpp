@@ -20,8 +20,8 @@ RunFault no_plant_heard(const Bus& bus, const std::string& which) {
               "network namespace"};
 }
 
-Result attached(const Experiment& experiment, const BusOptions& options, nanoseconds patience,
-                const StopSwitch& stop) {
+Result attached(const Experiment& experiment, const BusOptions& options, nanoseconds first_wait,
+                nanoseconds patience, const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
   require_memory(experiment, plan);
   Bus bus(options);
@@ -37,7 +37,7 @@ Result attached(const Experiment& experiment, const BusOptions& options, nanosec
     const std::int64_t before = judge.latest();
     bus.wait(now() + std::chrono::milliseconds(100), stop);
     if (judge.latest() != before) news = now();
-    if (now() - news > patience)
+    if (now() - news > (judge.session() != 0 ? patience : first_wait))
       throw judge.session() != 0 ? RunFault("lost_peer", "the plant fell silent on " + bus.channel("STATE"))
                                  : no_plant_heard(bus, " of this experiment");
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "notation/utf8.hpp"
 #include "processes/called_as.hpp"
 
 namespace mixloop {
@@ -45,7 +46,7 @@ std::string command_of(const Launch& launch, const std::string& process) {
   if (launch.real_time) words.emplace_back("--realtime");
   std::string line;
   for (const auto& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
-  return line;
+  return printable_name(line);
 }
 
 double seconds_since(Instant start) { return std::chrono::duration<double>(now() - start).count(); }

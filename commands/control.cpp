@@ -61,12 +61,16 @@ class PlantSought {
  private:
   void on_state(Bytes bytes) {
     const auto header = peek(bytes);
-    if (!header || header->n < 1 || header->session == 0) return;
-    state_t state;
-    if (!decode(bytes, state)) return;
+    if (!header || header->n < 1 || header->n > kMost || header->session == 0 || header->seq < 0) return;
+    // Length and type are looked at before anything is taken for as many coordinates as it claims.
+    Inbox<state_t> inbox(header->n);
+    if (inbox.read(bytes)) return;
+    const state_t& state = inbox.message;
     heard_ = header;
     real_time_ = (state.flags & state_t::FLAG_REAL_TIME) != 0;
   }
+
+  static constexpr std::int32_t kMost = 4096;  ///< coordinates: no datagram holds more
 
   std::string channel_;
   std::optional<Header> heard_;

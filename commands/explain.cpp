@@ -22,10 +22,6 @@ nlohmann::json counts(const OperationCount& count) {
           {"sincos", count.sincos}, {"other", count.other}, {"flops", count.flops()}};
 }
 
-const char* served_by(const Explanation::Quantity& quantity) {
-  return quantity.compiled ? "machine_code" : "interpreter";
-}
-
 nlohmann::json as_json(const Explanation& explanation) {
   nlohmann::json json;
   for (const auto& quantity : explanation.quantities)
@@ -33,7 +29,11 @@ nlohmann::json as_json(const Explanation& explanation) {
                                                                   {"pruned", counts(quantity.run)},
                                                                   {"set_up", counts(quantity.set_up)},
                                                                   {"tracing", name_of(quantity.tracing)},
-                                                                  {"evaluation", served_by(quantity)}};
+                                                                  {"evaluation", nullptr}};
+  for (const auto& quantity : explanation.quantities)
+    if (quantity.evaluation)
+      json["quantities"][std::string(name_of(quantity.purpose))]["evaluation"] =
+          name_of(*quantity.evaluation);
   json["reasons"] = explanation.reasons;
   return json;
 }
@@ -49,7 +49,7 @@ void print_table(const Explanation& explanation) {
                text(quantity.run),
                static_cast<double>(quantity.literal.flops()) /
                    static_cast<double>(std::max<std::size_t>(1, quantity.run.flops())),
-               name_of(quantity.tracing), served_by(quantity));
+               name_of(quantity.tracing), quantity.evaluation ? name_of(*quantity.evaluation) : "-");
   }
   fmt::print("\nForward dynamics: {}\n  instead of {}.\n\nWhy:\n", explanation.quantities[0].run.text(),
              explanation.quantities[0].literal.text());

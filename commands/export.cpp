@@ -13,6 +13,7 @@
 
 #include "commands/commands.hpp"
 #include "loop/result.hpp"
+#include "notation/utf8.hpp"
 #include "processes/command_line.hpp"
 #include "report/csv_folder.hpp"
 #include "report/kept_files.hpp"
@@ -178,7 +179,7 @@ void print_summary(const nlohmann::json& result) {
                file["type"].get<std::string>(),
                undecodable > 0 ? fmt::format("; {} messages left out: another type or n", undecodable) : "");
   }
-  fmt::print("columns and their units: {}/columns.csv\n", result["out"].get<std::string>());
+  fmt::print("columns and their units: {}/columns.csv\n", printable_name(result["out"].get<std::string>()));
 }
 
 /// What a reader must know of where the numbers come from.
@@ -205,7 +206,8 @@ int run(const ExportLine& options) {
   }
   progress.clear();
   if (stop.turned()) {
-    if (!options.json) fmt::print(stderr, "mixloop: interrupted; nothing is kept in {}\n", out);
+    if (!options.json)
+      fmt::print(stderr, "mixloop: interrupted; nothing is kept in {}\n", printable_name(out));
     if (options.json) print_json({{"interrupted_at", log.position()}, {"files", nlohmann::json::array()}});
     return kInterrupted;
   }
@@ -223,7 +225,7 @@ int run(const ExportLine& options) {
   for (const auto& note : result["notes"]) fmt::print(stderr, "mixloop: {}\n", note.get<std::string>());
   if (!log.damage().empty()) fmt::print(stderr, "mixloop: {}: {}\n", options.log, log.damage());
   if (!result["skipped_channels"].empty())
-    fmt::print(stderr, "mixloop: {}: left out, not of mixloop's types: {}\n", options.log,
+    fmt::print(stderr, "mixloop: {}: left out, not of mixloop's types: {}\n", printable_name(options.log),
                Exporter::names(result["skipped_channels"]));
   return kHeld;
 }

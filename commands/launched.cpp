@@ -7,12 +7,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <optional>
 
 #include "commands/awaited.hpp"
 #include "commands/children.hpp"
+#include "commands/overheard.hpp"
 #include "commands/warnings.hpp"
 #include "loop/inputs.hpp"
 #include "loop/recorded_plant.hpp"
@@ -35,6 +37,8 @@ using namespace std::chrono_literals;
 /// recorded takes as long as it takes.
 constexpr auto kGrace = 3s;
 
+nanoseconds in_nanoseconds(double seconds) { return nanoseconds(std::llround(1e9 * seconds)); }
+
 /// A run of the processes: their pipes, their ends, and what the plant reports.
 class Run {
  public:
@@ -49,6 +53,9 @@ class Run {
     // A stranger's plant draws its own, and the others take that.
     const std::int64_t session = absent("plant") ? 0 : draw_session();
     if (!launch.without.empty() && !launch.quiet) awaited_.emplace(launch, session);
+    if (absent("plant"))
+      overheard_.emplace(experiment, launch.bus, in_nanoseconds(launch.first_wait),
+                         in_nanoseconds(launch.patience));
     children_.reserve(launch.order.size());
     for (const auto& name : launch.order)
       if (!absent(name))
@@ -59,6 +66,7 @@ class Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
+  /// Throws RunFault for a process that failed; then the plant's result, if it told one, is `told()`.
   Result wait() {
     while (
         std::any_of(children_.begin(), children_.end(), [](const Child& child) { return child.running(); })) {
@@ -74,6 +82,8 @@ class Run {
     return verdict();
   }
 
+  const std::optional<Result>& told() const { return result_; }
+
  private:
   bool absent(const std::string& name) const {
     return std::find(launch_.without.begin(), launch_.without.end(), name) != launch_.without.end();
@@ -82,6 +92,8 @@ class Run {
   std::vector<std::string> command(const std::string& name, std::int64_t session, int report) const {
     std::vector<std::string> words = {own_folder() + "/mixloop-" + name,
                                       launch_.experiment,
+                                      "--parent",
+                                      std::to_string(getpid()),
                                       "--session",
                                       std::to_string(session),
                                       "--lcm-url",
@@ -96,6 +108,8 @@ class Run {
                                       std::string(name_of(launch_.evaluation))};
     for (const auto& set : launch_.sets) words.insert(words.end(), {"--set", set});
     if (launch_.real_time) words.emplace_back("--realtime");
+    // The planner is a tick ahead: nobody waits for it.
+    if (launch_.spin && name != "planner") words.emplace_back("--spin");
     if (name != "plant") return words;
     if (launch_.paused) words.emplace_back("--paused");
     if (launch_.hold) words.emplace_back("--hold");
@@ -194,6 +208,7 @@ class Run {
 
   Result verdict() {
     if (first_failure_) throw_failure(*first_failure_);
+    if (overheard_) return overheard_->finish();
     if (stopped_ && !result_)
       return {.judged = {.verdict = Verdict::interrupted, .exit_status = kInterrupted}};
     for (const auto& child : children_)
@@ -220,6 +235,7 @@ class Run {
   const std::function<void(const Result&)>& at_end_;
   Progress progress_;
   std::optional<Awaited> awaited_;
+  std::optional<Overheard> overheard_;  ///< a stranger's plant
   std::vector<Child> children_;
   int report_ = -1;
   bool reported_all_ = false;
@@ -232,6 +248,16 @@ class Run {
   bool terminated_ = false;
   std::optional<Instant> deadline_;
 };
+
+/// What is kept of a run whose processes failed says so too.
+Result waited_for(Run& run, const Launch& launch) {
+  try {
+    return run.wait();
+  } catch (const RunFault& fault) {
+    if (run.told() && !launch.out.empty()) keep_result(launch.out, failed(*run.told(), fault));
+    throw;
+  }
+}
 
 }  // namespace
 
@@ -257,7 +283,7 @@ Result launched(const Experiment& experiment, const Launch& launch, const StopSw
   std::optional<LogWriter> log;
   if (!launch.out.empty()) log.emplace(launch.bus, std::filesystem::path(launch.out) / "run.lcmlog");
   Run run(experiment, launch, stop, at_end, plan.ticks());
-  Result result = run.wait();
+  Result result = waited_for(run, launch);
   if (result.warnings) {  // the plant's own, of the run that it had
     say(*result.warnings, launch.quiet);
     warnings.insert(warnings.end(), result.warnings->begin(), result.warnings->end());

@@ -18,6 +18,7 @@ struct Launch {
   BusOptions bus;
   std::string speed;  ///< empty: max in lockstep, 1 in real time
   bool real_time = false;
+  bool spin = false;  ///< plant and controller wait awake
   bool paused = false;
   std::string out;                   ///< empty: keep nothing
   std::vector<std::string> without;  ///< processes that a stranger provides

@@ -11,6 +11,7 @@
 #include "commands/log_options.hpp"
 #include "commands/web_page.hpp"
 #include "loop/output_file.hpp"
+#include "notation/utf8.hpp"
 #include "report/page.hpp"
 #include "report/progress.hpp"
 
@@ -78,7 +79,7 @@ int run(ReportLine& options) {
     fmt::print("{}: {} ticks of {}\n", run.label, run.curves.ticks(), run.source);
     for (const auto& note : run.notes) fmt::print("  {}\n", note);
   }
-  fmt::print("{}: {:.1f} MB\n", out, static_cast<double>(text.size()) * 1e-6);
+  fmt::print("{}: {:.1f} MB\n", printable_name(out), static_cast<double>(text.size()) * 1e-6);
   return 0;
 }
 

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <thread>
 
 #include "commands/commands.hpp"
 #include "commands/launched.hpp"
 #include "loop/cases.hpp"
+#include "notation/utf8.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
@@ -36,13 +38,18 @@ int run(RunLine& options) {
     const double speed = speed_of(launch.speed);
     if (launch.real_time) require_real_time_speed(speed);
   }
+  if (const auto cores = std::thread::hardware_concurrency(); launch.spin && cores < 3)
+    fmt::print(
+        stderr,
+        "mixloop: --spin keeps two cores busy, and there are {}: who waits awake takes the others' time\n",
+        cores);
   Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
   experiment.evaluation = launch.evaluation;
   experiment.name = name_with_case(experiment.name, options.case_name);
   const auto print = [&](const Result& result) {
     if (options.json) return;
     fmt::print("{}{}", summary(experiment, result), bus_summary(result));
-    if (!launch.out.empty()) fmt::print("  kept in {}\n", launch.out);
+    if (!launch.out.empty()) fmt::print("  kept in {}\n", printable_name(launch.out));
     flush_standard_output();
   };
   bool printed = false;
@@ -87,6 +94,9 @@ void add_run_command(CLI::App& app, int& status) {
       ->add_option("--speed", launch.speed,
                    "plant seconds a real second, or max: as fast as it goes. In lockstep max, in real time 1")
       ->type_name("X");
+  command->add_flag(
+      "--spin", launch.spin,
+      "plant and controller wait awake: no wake-ups on their way, for two cores and one to spare");
   command->add_flag("--paused", launch.paused, "begin paused, at tick 0; mixloop control goes on from there");
   command->add_flag("--hold", launch.hold, "go on holding the end point until Ctrl-C");
   command->add_flag("--truth", launch.truth, "publish TRUTH, which no controller may read");

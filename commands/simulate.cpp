@@ -14,6 +14,7 @@
 #include "loop/cases.hpp"
 #include "loop/review.hpp"
 #include "notation/long_work.hpp"
+#include "notation/utf8.hpp"
 #include "processes/command_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
@@ -56,7 +57,8 @@ Result simulated(Experiment loaded, const std::string& out, const StopSwitch& st
   else
     simulate_arrivals(plant, arrivals, go_on);
   const double wall_time = std::chrono::duration<double>(now() - start).count();
-  Result result = result_of(experiment, plant.recorder().measures(), "simulate", wall_time);
+  Result result = result_of(experiment, plant.recorder().measures(), "simulate",
+                            plant.plant().equations().evaluation(), wall_time);
   const Uninterrupted whole;  // what there is is told and kept
   const auto afterwards =
       stop.turned() ? std::vector<std::string>() : review(experiment, plan, plant.recorder());
@@ -89,7 +91,7 @@ int run(SimulateLine& options) {
     print_json(json_of(result));
   else
     fmt::print("{}{}", summary(experiment, result),
-               options.out.empty() ? "" : "  kept in " + options.out + "\n");
+               options.out.empty() ? "" : "  kept in " + printable_name(options.out) + "\n");
   return result.judged.exit_status;
 }
 

@@ -17,6 +17,7 @@
 #include "commands/suite.hpp"
 #include "notation/long_work.hpp"
 #include "notation/number_text.hpp"
+#include "notation/utf8.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
@@ -72,7 +73,7 @@ Result tracked(const SuiteRun& run, const TrackLine& options, const StopSwitch& 
   experiment.evaluation = options.evaluation;
   const std::string out = folder_of(run, options);
   const auto patience = nanoseconds(static_cast<std::int64_t>(options.patience * 1e9));
-  if (options.attach) return attached(experiment, options.bus, patience, stop);
+  if (options.attach) return attached(experiment, options.bus, patience, patience, stop);
   if (!options.over_bus) return simulated(experiment, out, stop, true);
   Launch launch;
   launch.experiment = run.file;
@@ -91,7 +92,7 @@ Result tracked(const SuiteRun& run, const TrackLine& options, const StopSwitch& 
 Result tracked_or_error(const SuiteRun& run, const TrackLine& options, const StopSwitch& stop) {
   const auto error = [&](const std::string& code, const std::string& message, const Place& place,
                          int status) -> Result {
-    return {.experiment = run.name,
+    return {.experiment = printable_name(run.name),
             .judged = {.verdict = status == kInterrupted ? Verdict::interrupted : Verdict::fault,
                        .exit_status = status},
             .error = {{.code = code, .message = message, .where = to_string(place)}}};

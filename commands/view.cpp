@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,8 @@ struct ViewLine : LogOptions {
   BusOptions bus;
   ServerOptions server;
 };
+
+constexpr int kNice = 10;
 
 /// An experiment is a YAML file; all else is a log or a kept result.
 bool is_experiment(const std::filesystem::path& path) {
@@ -45,6 +48,8 @@ int run(ViewLine& options) {
   stop.turn_on_signals();
   const ShownWork work(stop);
   const std::string page = web_page("view.html");
+  // Pages, however many and however much they ask for, take what a plant on this machine leaves.
+  if (is_experiment(options.what)) setpriority(PRIO_PROCESS, 0, kNice);
   const auto source = source_of(options);
   Server server(options.server, page);
   const std::string url = fmt::format("http://127.0.0.1:{}/", server.port());

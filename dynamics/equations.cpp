@@ -22,12 +22,6 @@ std::shared_ptr<const Scene> with_friction_factor(const Scene& scene) {
 
 }  // namespace
 
-std::string_view name_of(Evaluation how) {
-  return how == Evaluation::reference     ? "reference"
-         : how == Evaluation::interpreter ? "interpreter"
-                                          : "machine_code";
-}
-
 Equations::Equations(std::shared_ptr<const Scene> scene, Evaluation how, std::span<const Purpose> purposes,
                      Options options)
     : scene_(std::move(scene)), evaluation_(how) {
@@ -53,8 +47,10 @@ std::unique_ptr<const Routine> Equations::routine(const std::shared_ptr<const Sc
     std::string complaint;
     if (auto code = MachineCode::load(key, program, complaint)) return code;
     if (complaint_.empty()) complaint_ = complaint;
-    evaluation_ = Evaluation::interpreter;
   }
+  const bool is_traced = !program().outputs.empty();
+  evaluation_ = std::min(evaluation_, is_traced ? Evaluation::interpreter : Evaluation::reference);
+  if (!is_traced) return reference_routine(scene, purpose);
   return std::make_unique<Interpreter>(program());
 }
 

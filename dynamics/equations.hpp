@@ -6,25 +6,14 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "dynamics/procedure/purpose.hpp"
+#include "dynamics/program/evaluation.hpp"
 #include "dynamics/program/routine.hpp"
 #include "dynamics/scene/scene.hpp"
 
 namespace mixloop {
-
-/// How the equations of motion are evaluated.
-enum class Evaluation : std::uint8_t {
-  reference,     ///< the procedure as it stands, on doubles
-  interpreter,   ///< the scene's programs, interpreted
-  machine_code,  ///< the scene's programs, compiled; interpreted where there is no compiler, and those too
-                 ///< long to compile (kMostCompiledOperations)
-};
-
-/// `reference`, `interpreter`, `machine_code`.
-std::string_view name_of(Evaluation how);
 
 /// A scene's equations of motion, ready to evaluate for the purposes asked for. Constant: threads share them,
 /// each with a Workspace of its own.
@@ -36,12 +25,12 @@ class Equations {
   };
 
   /// Traces (and compiles, or finds compiled) the programs. Throws InputError for a scene whose constraints
-  /// cannot be evaluated.
+  /// cannot be evaluated, and "too_large" for a linearisation that takes too many operations.
   Equations(std::shared_ptr<const Scene> scene, Evaluation how, std::span<const Purpose> purposes,
             Options options);
 
   const Scene& scene() const { return *scene_; }
-  /// What serves; `interpreter` where machine code was asked for and at least one program is interpreted.
+  /// What serves: of several purposes the slowest way that one of them is evaluated.
   Evaluation evaluation() const { return evaluation_; }
   /// Why programs are interpreted that should have been compiled; empty where none is, or is but too long.
   const std::string& complaint() const { return complaint_; }

@@ -12,6 +12,7 @@
 #include "loop/base.hpp"
 #include "loop/experiment_keys.hpp"
 #include "notation/formula.hpp"
+#include "notation/utf8.hpp"
 #include "notation/value.hpp"
 #include "planner/path_keys.hpp"
 #include "plant/hardware.hpp"
@@ -202,7 +203,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   experiment.document = overridden(on_base(document, file), overrides, false);
   const Mapping root = read_mapping(experiment.document, experiment_keys());
   experiment.file = file;
-  experiment.name = file.stem().string();
+  experiment.name = printable_name(file.stem().string());
   const auto base = file.parent_path();
   experiment.scene_document = scene_document_at(*root.at("scene"), base, overrides);
   experiment.scene = std::make_shared<const Scene>(load_scene(experiment.scene_document));

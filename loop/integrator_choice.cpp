@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "dynamics/program/trace.hpp"
@@ -49,13 +50,13 @@ class LocalErrors {
   std::vector<Vector> ends_;
 };
 
-double operations_of(const std::shared_ptr<const Scene>& scene, Purpose purpose) {
-  return estimated_time(trace(scene, purpose).program.run_operations());
-}
-
-/// Of a Jacobian, in evaluations of the forward dynamics.
+/// Of a Jacobian, in evaluations of the forward dynamics; infinite where one is too long for a program.
 double jacobian_cost(const std::shared_ptr<const Scene>& scene) {
-  return operations_of(scene, Purpose::linearisation) / operations_of(scene, Purpose::forward_dynamics);
+  const Program dynamics = trace(scene, Purpose::forward_dynamics).program;
+  if (dynamics.outputs.empty()) return std::numeric_limits<double>::infinity();
+  const Program linearisation = trace(scene, Purpose::linearisation).program;
+  if (linearisation.outputs.empty()) return std::numeric_limits<double>::infinity();
+  return estimated_time(linearisation.run_operations()) / estimated_time(dynamics.run_operations());
 }
 
 std::string reason(const IntegratorChoice& choice, double price, std::size_t poses) {

@@ -31,7 +31,6 @@ class RecordedPlant {
   Recorder& recorder() { return recorder_; }
   const Recorder& recorder() const { return recorder_; }
   bool faulty() const { return faulty_; }  ///< something was wrong at the tick last recorded
-  std::int64_t faults_not_taken() const { return not_taken_; }  ///< of those that came by message
 
   /// Records the state at tick 0. False: it is too far from the path.
   bool begin() { return record_state(); }
@@ -67,7 +66,6 @@ class RecordedPlant {
   Recorder recorder_;
   Vector psi_, psid_;  ///< measured, where that isn't exact
   bool faulty_ = false;
-  std::int64_t not_taken_ = 0;
 };
 
 template <class GoesOn, class Advance>

@@ -48,14 +48,21 @@ Judgement judge(const Experiment& experiment, const Measures& measures) {
   return judgement;
 }
 
+Result failed(Result result, const RunFault& fault) {
+  result.judged.verdict = Verdict::fault;
+  result.judged.exit_status = kRunFault;
+  result.error = {.code = fault.code, .message = fault.what()};
+  return result;
+}
+
 Result result_of(const Experiment& experiment, const Measures& measures, const std::string& route,
-                 double wall_time) {
+                 Evaluation ran, double wall_time) {
   RunFigures run{.measures = measures,
                  .bounds = bounds_of(experiment.expect, measures),
                  .expects_divergence = experiment.expect.diverges,
                  .wall_time = wall_time,
                  .route = route,
-                 .evaluation = std::string(name_of(experiment.evaluation)),
+                 .evaluation = std::string(name_of(ran)),
                  .rate = experiment.rate_hz,
                  .scene = experiment.scene->name,
                  .scene_sha256 = sha256_hex(experiment.scene->canonical),

@@ -11,6 +11,7 @@
 #include "loop/experiment.hpp"
 #include "loop/measures.hpp"
 #include "loop/origin.hpp"
+#include "notation/errors.hpp"
 
 namespace mixloop {
 
@@ -54,7 +55,7 @@ struct RunFigures {
   bool expects_divergence = false;
   double wall_time = 0;    ///< s
   std::string route;       ///< "simulate", "lockstep", "real_time" or "attached"
-  std::string evaluation;  ///< of the equations of motion
+  std::string evaluation;  ///< how the plant's equations of motion were evaluated
   double rate = 0;         ///< Hz
   std::string scene, scene_sha256;
   std::map<std::string, double> parameters;  ///< the plant's
@@ -83,6 +84,8 @@ struct BusFigures {
   double slipped = 0;
   std::uint64_t rejected = 0;
   std::map<std::string, std::uint64_t> rejected_by_cause;
+  std::uint64_t refused_faults = 0;
+  std::uint64_t dropped = 0;  ///< datagrams at the plant's socket that the kernel kept from it, or no message
   bool joined_late = false;
 };
 
@@ -110,8 +113,11 @@ struct Result {
   std::optional<Error> error;
 };
 
-/// The result of a run that is over.
+/// A run's result that a fault ended.
+Result failed(Result result, const RunFault& fault);
+
+/// The result of a run that is over. `ran`: how the equations were evaluated, whatever was asked for.
 Result result_of(const Experiment& experiment, const Measures& measures, const std::string& route,
-                 double wall_time);
+                 Evaluation ran, double wall_time);
 
 }  // namespace mixloop

@@ -13,10 +13,10 @@ struct Place {
   int column = 0;
 };
 
-/// `file:line:column`, without the parts that are not known.
+/// `file:line:column`, without the parts that are not known; printable.
 std::string to_string(const Place& place);
 
-/// Bad input: what was found, what was expected, and where. Ends a command with exit status 2.
+/// Bad input: what was found, what was expected, and where; printable. Ends a command with exit status 2.
 struct InputError : std::runtime_error {
   InputError(std::string code, const Place& place, const std::string& message);
 
@@ -27,8 +27,7 @@ struct InputError : std::runtime_error {
 
 /// A fault at run time (a lost peer, divergence, a singularity). Ends a command with exit status 3.
 struct RunFault : std::runtime_error {
-  RunFault(std::string code_, const std::string& message)
-      : std::runtime_error(message), code(std::move(code_)) {}
+  RunFault(std::string code_, const std::string& message);
 
   std::string code;
 };

@@ -31,6 +31,27 @@ bool is_control(std::string_view bytes, std::size_t i) {
   return (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7f;
 }
 
+/// `text` with what is no text, and white space other than `kept` and the blank, as \xNN.
+std::string without(std::string_view text, std::string_view kept) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    const unsigned char byte = byte_at(text, i);
+    const bool is_space = byte == '\t' || byte == '\n' || byte == '\r';
+    if (length == 0 || is_control(text, i) || (is_space && kept.find(text[i]) == std::string_view::npos)) {
+      constexpr const char* kDigits = "0123456789abcdef";
+      for (std::size_t end = i + std::max<std::size_t>(length, 1); i < end; ++i)
+        shown.append("\\x")
+            .append(1, kDigits[byte_at(text, i) >> 4])
+            .append(1, kDigits[byte_at(text, i) & 15]);
+    } else {
+      shown += text.substr(i, length);
+      i += length;
+    }
+  }
+  return shown;
+}
+
 }  // namespace
 
 std::optional<std::size_t> first_non_text(std::string_view bytes) {
@@ -42,10 +63,15 @@ std::optional<std::size_t> first_non_text(std::string_view bytes) {
   return std::nullopt;
 }
 
-std::string in_quotes(std::string_view text, std::size_t most) {
+std::string printable(std::string_view text) { return without(text, "\n\t"); }
+
+std::string printable_name(std::string_view text) { return without(text, ""); }
+
+std::string in_quotes(std::string_view bytes, std::size_t most) {
+  const std::string text = without(bytes, "\n\r\t");
   std::size_t end = std::min(text.size(), most);
   while (end > 0 && end < text.size() && continues(text, end)) --end;
-  std::string shown(text.substr(0, end));
+  std::string shown = text.substr(0, end);
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
   return "'" + shown + (end < text.size() ? "...'" : "'");

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "notation/long_work.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -150,6 +152,7 @@ Eigen::Matrix3d InverseKinematics::jacobian_of(const EndEffectorState<double>& s
 
 const EndEffectorState<double>& InverseKinematics::forward(const Vector& psi, const Vector& psid,
                                                            const Vector& psidd, double t) {
+  work_goes_on();  // of a large scene one takes long, and refusals take thousands
   const PsiMotion all = with_free_at_home(*model_.scene, {psi, psid, psidd});
   return end_effector<double>(model_, span_of(all.psi), span_of(all.psid), span_of(all.psidd), t, ws_);
 }

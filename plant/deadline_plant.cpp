@@ -17,7 +17,10 @@ DeadlinePlant::DeadlinePlant(Plant plant, const PlantSettings& settings, Deadlin
   // Commands are each of another tick: no more of them wait than ticks go into the delay.
   state_.effects.assign(static_cast<std::size_t>(std::ceil(delay_ * rate_hz)) + 4, {.tau = state_.commanded});
   state_.arrivals.commands.reserve(static_cast<std::size_t>(ticks) + 2);
-  state_.arrivals.interventions.reserve(kInjected + 1);
+  // Past the limit only what heals something is kept: no more than there is, and than may still begin.
+  const Faults::State* faults = plant_.faults();
+  const std::size_t healings = faults ? faults->until.size() + faults->waiting.size() + Faults::kWaiting : 0;
+  state_.arrivals.interventions.reserve(kInjected + 1 + healings);
 }
 
 void DeadlinePlant::put_back(const DeadlineState& state, const PlantState& plant) {
@@ -87,9 +90,24 @@ void DeadlinePlant::make_safe(const char* cause) {
   go_safe(cause);
 }
 
+const char* DeadlinePlant::no_room_for(const Fault& fault, std::span<const Fault> before) const {
+  if (plant_.heals_at_once(fault)) return nullptr;
+  if (state_.arrivals.interventions.size() + before.size() >= kInjected)
+    return "1000 came in this run, and no more are kept of one; what is wrong can still be healed (kind "
+           "none, at "
+           "once)";
+  if (plant_.no_more_may_wait(before.size()))
+    return "64 wait for their time, and no more can; what is wrong can still be healed (kind none, at once)";
+  return nullptr;
+}
+
 bool DeadlinePlant::inject(const Fault& fault) {
   auto& kept = state_.arrivals.interventions;
-  if (kept.size() >= kInjected || !plant_.inject(fault)) return false;
+  if (kept.size() >= kInjected) {
+    if (!plant_.heals_at_once(fault)) return false;
+    if (!plant_.is_wrong(fault)) return true;  // there is nothing to heal
+  }
+  if (!plant_.inject(fault)) return false;
   kept.push_back({.tick = plant_.tick(), .fault = fault});
   return true;
 }

@@ -64,10 +64,12 @@ class DeadlinePlant {
 
   /// Brings the safe state, from the tick in hand on. `cause` must outlive this.
   void make_safe(const char* cause);
-  /// Plant::inject, kept among the arrivals; false also after kInjected of them. What it changes in the tick
+  /// Why a fault that could be can't be taken now, `before` having come in this tick; null where it can.
+  const char* no_room_for(const Fault& fault, std::span<const Fault> before) const;
+  /// Plant::inject, kept among the arrivals; false also where there is no room. What it changes in the tick
   /// in hand it changes from its start.
   bool inject(const Fault& fault);
-  static constexpr std::size_t kInjected = 1000;
+  static constexpr std::size_t kInjected = 1000;  ///< so many a run, but for what heals
   const std::optional<DeadlineState::Safe>& safe() const { return state_.safe; }
 
   /// The command in effect at the end of the last tick, before limits; in the safe state, what stands for it.

@@ -110,7 +110,7 @@ Faults::State Faults::state() const {
     state.positions.emplace_back(chance_, i, Draw::position_fault, rate_hz_);
     state.velocities.emplace_back(chance_, i, Draw::velocity_fault, rate_hz_);
   }
-  state.waiting.reserve(scheduled_.size() + kWaiting);
+  state.waiting.reserve(scheduled_.size() + kWaiting + 1);
   for (const Fault& fault : scheduled_) queue(state, fault, 0);
   return state;
 }
@@ -123,7 +123,7 @@ void Faults::queue(State& state, const Fault& fault, std::int64_t earliest) cons
 }
 
 bool Faults::inject(State& state, const Fault& fault, const Scene& scene, std::int64_t tick) const {
-  if (state.waiting.size() == scheduled_.size() + kWaiting || objection(fault, scene, rate_hz_)) return false;
+  if (objection(fault, scene, rate_hz_) || (full(state) && !heals_at_once(fault, tick))) return false;
   queue(state, fault, tick);
   begin(state, tick);
   return true;
@@ -181,6 +181,25 @@ bool Faults::start(State& state, const Fault& fault, std::int64_t until) const {
     state.until[n_u_ + i] = until;
   }
   return false;
+}
+
+bool Faults::is_wrong(const State& state, const Fault& fault) const {
+  const auto among = [&fault](const auto& all, const auto& wrong) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((fault.index < 0 || static_cast<std::size_t>(fault.index) == i) && wrong(i)) return true;
+    return false;
+  };
+  switch (fault.target) {
+    case Target::motor:
+      return among(state.motors, [&](std::size_t i) { return state.motors[i].active(); });
+    case Target::sensor:
+      return among(state.positions, [&](std::size_t i) { return state.positions[i].active(); });
+    case Target::parameter:
+      return among(normal_, [&](std::size_t i) { return state.parameters[i] != normal_[i]; });
+    case Target::friction:
+      break;
+  }
+  return state.friction != 1;
 }
 
 bool Faults::any_active(const State& state) const {

@@ -138,6 +138,17 @@ class Faults {
   /// Before any tick, with room for all that may wait.
   State state() const;
 
+  /// Whether it ends what is wrong, now: what no limit is in the way of.
+  bool heals_at_once(const Fault& fault, std::int64_t tick) const {
+    return fault.kind == Fault::Kind::none && tick_at(fault.at) <= tick;
+  }
+  /// Whether something is wrong with what a fault is about.
+  bool is_wrong(const State& state, const Fault& fault) const;
+  /// Whether no more injected ones can wait for their time beside `more`.
+  bool full(const State& state, std::size_t more = 0) const {
+    return state.waiting.size() + more >= scheduled_.size() + kWaiting;
+  }
+
   /// False: it can't be, or too many wait.
   bool inject(State& state, const Fault& fault, const Scene& scene, std::int64_t tick) const;
   /// Begins and ends what is due.

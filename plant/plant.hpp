@@ -44,6 +44,16 @@ class Plant {
   /// Takes a fault, which acts from tick() on or later. False: it can't be (objection says why), too many
   /// wait for their time, or the settings don't allow any.
   bool inject(const Fault& fault);
+  /// Of faults that come now, as Faults says: what plants without any can't have.
+  bool heals_at_once(const Fault& fault) const {
+    return faults() && hardware_->faults->heals_at_once(fault, tick());
+  }
+  bool is_wrong(const Fault& fault) const {
+    return faults() && hardware_->faults->is_wrong(*faults(), fault);
+  }
+  bool no_more_may_wait(std::size_t beside) const {
+    return !faults() || hardware_->faults->full(*faults(), beside);
+  }
   /// Null where nothing can go wrong.
   const Faults::State* faults() const {
     return hardware_ && hardware_->faults ? &state_.hardware.faults : nullptr;

@@ -21,6 +21,8 @@ BusFigures bus_figures(const PlantReport& report) {
                      .round_trip = quantiles(report.round_trip),
                      .slipped = seconds(report.slipped),
                      .rejected = report.rejects.total(),
+                     .refused_faults = report.refused_faults,
+                     .dropped = report.dropped,
                      .joined_late = report.joined_late > 0};
   if (report.wake_up.count() > 0) figures.wake_up = quantiles(report.wake_up);
   for (const RejectRow& row : kRejects)

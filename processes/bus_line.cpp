@@ -6,14 +6,30 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "notation/utf8.hpp"
+#include "processes/parent.hpp"
+
 namespace mixloop {
+namespace {
+
+/// What is wrong with a prefix; empty where nothing is.
+std::string unfit_prefix(const std::string& prefix) {
+  if (prefix.size() > kLongestPrefix)
+    return fmt::format("{} has {} bytes; expected {} at most, which LCM's names of channels leave",
+                       in_quotes(prefix), prefix.size(), kLongestPrefix);
+  if (first_non_text(prefix)) return in_quotes(prefix) + " is no text; expected letters and digits";
+  return {};
+}
+
+}  // namespace
 
 void add_bus_options(CLI::App& command, BusOptions& options) {
   if (const char* url = std::getenv("LCM_DEFAULT_URL"); url && *url) options.url = url;
   command.add_option("--lcm-url", options.url, "where the bus is; LCM_DEFAULT_URL, else " + options.url)
       ->type_name("URL");
   command.add_option("--channel-prefix", options.prefix, "of every channel's name, " + options.prefix)
-      ->type_name("PREFIX");
+      ->type_name("PREFIX")
+      ->check(unfit_prefix);
 }
 
 Experiment PeerLine::load() const {
@@ -47,7 +63,11 @@ void add_peer_options(CLI::App& command, PeerLine& line) {
   command.add_option("--cpu", line.wishes.cpu, "in real time, the core to stay on")
       ->type_name("CORE")
       ->check(CLI::Range(0, 1023));
+  command.add_flag(
+      "--spin", line.bus.spin,
+      "wait awake, never asleep: saves the wake-up's microseconds and takes a core of its own (--cpu)");
   add_evaluation_option(command, line.evaluation);
+  command.add_option_function<pid_t>("--parent", die_with, "by `mixloop run`: its process id")->group("");
 }
 
 void PeerLine::say_waiting(const char* program, const char* whom, const char* channel) const {

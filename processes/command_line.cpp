@@ -23,6 +23,7 @@
 #include "notation/nearest.hpp"
 #include "notation/utf8.hpp"
 #include "processes/called_as.hpp"
+#include "processes/result_json.hpp"
 #include "processes/standard_output.hpp"
 
 namespace mixloop {
@@ -32,14 +33,14 @@ constexpr int kBrokenPipe = 128 + SIGPIPE;  ///< as a shell has it
 
 /// Without throwing, whatever became of stderr.
 void say(const char* program, const std::string& message) {
-  std::fputs(fmt::format("{}: {}\n", program, message).c_str(), stderr);
+  std::fputs(fmt::format("{}: {}\n", program, printable(message)).c_str(), stderr);
 }
 
 int report(bool json, const char* program, const std::string& code, const std::string& found,
            const Place& place, int status) {
   const std::string where = to_string(place), message = as_called(found);
   if (json)
-    print_json({{"error", {{"code", code}, {"message", message}, {"where", where}}}});
+    print_json({{"error", {{"code", code}, {"message", printable(message)}, {"where", where}}}});
   else
     say(program, where + (where.empty() ? "" : ": ") + message);
   return status;
@@ -140,6 +141,7 @@ void say_complaint(const std::string& complaint) {
 }
 
 int run_command_line(int argc, char** argv, CLI::App& app, const int& status) {
+  open_standard_files();
   bool json = false;
   for (int i = 1; i < argc; ++i) json = json || std::strcmp(argv[i], "--json") == 0;
   const char* program = std::strrchr(argv[0], '/') ? std::strrchr(argv[0], '/') + 1 : argv[0];
@@ -204,6 +206,6 @@ void add_evaluation_option(CLI::App& command, Evaluation& evaluation) {
       ->type_name("HOW");
 }
 
-void print_json(const nlohmann::json& json) { fmt::print("{}\n", json.dump(2)); }
+void print_json(const nlohmann::json& json) { fmt::print("{}\n", json_text(json, 2)); }
 
 }  // namespace mixloop

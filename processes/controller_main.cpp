@@ -19,7 +19,7 @@ int run(const PeerLine& line) {
   say_complaint(controller.law().equations().complaint());
 
   Bus bus(line.bus);
-  ControllerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()),
+  ControllerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks(), "mixloop-controller"),
                       controller_side(controller, experiment, plan));
   line.take_rights("mixloop-controller", line.session == 0);
   if (line.session == 0) line.say_waiting("mixloop-controller", "a plant", "STATE");

@@ -29,34 +29,41 @@ int payload_in(const Scene& scene) {
 
 }  // namespace
 
-FaultEar::FaultEar(Bus& bus, const Experiment& experiment, bool allowed, PlantReport& report)
+FaultEar::FaultEar(Bus& bus, const RecordedPlant& run, bool allowed, std::int64_t config, PlantReport& report)
     : bus_(bus),
       channel_(bus.channel("FAULT")),
-      experiment_(experiment),
+      run_(run),
       allowed_(allowed),
+      config_(config),
       report_(report),
-      inbox_(experiment.scene->n()),
-      answer_(experiment.scene->n()) {
+      inbox_(run.experiment().scene->n()),
+      answer_(run.experiment().scene->n()) {
   heard_.reserve(Faults::kWaiting);
   bus_.subscribe<&FaultEar::on_fault>(channel_, this);
 }
 
-void FaultEar::forget(std::int64_t not_taken) {
-  heard_.clear();
-  if (not_taken > 0)
-    say_refused(fmt::format("{} more than can wait for their time ({}) or come in a run ({})", not_taken,
-                            Faults::kWaiting, DeadlinePlant::kInjected));
+bool FaultEar::is_news(Endpoint sender, std::int64_t count) {
+  auto known = std::find_if(counts_.begin(), counts_.end(),
+                            [sender](const Count& c) { return c.latest >= 0 && c.sender == sender; });
+  if (known == counts_.end()) {
+    known = counts_.begin() + static_cast<std::ptrdiff_t>(senders_++ % counts_.size());
+    *known = {.sender = sender};
+  }
+  if (count <= known->latest) return false;
+  known->latest = count;
+  return true;
 }
 
-void FaultEar::on_fault(Bytes bytes) {
+void FaultEar::on_fault(const Received& received) {
   const auto reject = [this](Reject cause) { report_.rejects.count(cause); };
-  if (const auto cause = inbox_.read(bytes)) return reject(*cause);
+  if (const auto cause = inbox_.read(received.data)) return reject(*cause);
   const fault_t& message = inbox_.message;
   if (message.session != report_.session) return reject(Reject::session);
   if (message.kind < fault_t::KIND_NONE) return;  // an answer, its own too
-  if (message.seq <= count_) return reject(Reject::stale);
-  count_ = message.seq;
+  if (message.config != config_) return reject(Reject::config);
+  if (!is_news(received.sender, message.seq)) return reject(Reject::stale);
   if (!allowed_) {
+    ++report_.refused_faults;
     say_refused("this plant was started without --allow-faults");
     return answer(fault_t::KIND_NOT_ALLOWED);
   }
@@ -64,6 +71,7 @@ void FaultEar::on_fault(Bytes bytes) {
     take(message);
     answer(fault_t::KIND_TAKEN);
   } catch (const InputError& error) {
+    ++report_.refused_faults;
     say_refused(error.message);
     answer(fault_t::KIND_REFUSED);
   }
@@ -71,12 +79,13 @@ void FaultEar::on_fault(Bytes bytes) {
 
 /// Throws InputError where it can't be.
 void FaultEar::take(const fault_t& message) {
-  const Scene& scene = *experiment_.scene;
+  const Experiment& experiment = run_.experiment();
+  const Scene& scene = *experiment.scene;
   const Fault fault = fault_in(message);
   const FaultGround ground{.scene = scene,
-                           .friction = scene.has_friction() || experiment_.plant.actuators.has_friction(),
-                           .rate_hz = experiment_.rate_hz,
-                           .values = experiment_.plant_parameters};
+                           .friction = scene.has_friction() || experiment.plant.actuators.has_friction(),
+                           .rate_hz = experiment.rate_hz,
+                           .values = experiment.plant_parameters};
   const auto parameters = static_cast<int>(scene.parameters.size());
   if (fault.target == Fault::Target::parameter && (fault.index < 0 || fault.index >= parameters))
     throw InputError(
@@ -87,9 +96,22 @@ void FaultEar::take(const fault_t& message) {
             : fmt::format("there is no parameter {}; the scene's parameters: {}", message.index + 1,
                           counted_parameters(scene)));
   require_possible(fault, ground);
-  if (heard_.size() == heard_.capacity())
+  if (const char* reason = run_.deadlines().no_room_for(fault, heard_))
+    throw InputError("out_of_range", {}, reason);
+  // Also a plant that is paused can be healed, however much it has heard in its tick.
+  if (run_.plant().heals_at_once(fault)) {
+    if (healed_already(fault)) return;
+  } else if (heard_.size() >= Faults::kWaiting) {
     throw InputError("out_of_range", {}, fmt::format("{} came in one tick already", heard_.size()));
+  }
   heard_.push_back(fault);
+}
+
+bool FaultEar::healed_already(const Fault& fault) const {
+  const auto latest = std::find_if(heard_.rbegin(), heard_.rend(), [&fault](const Fault& heard) {
+    return heard.target == fault.target && heard.index == fault.index;
+  });
+  return latest != heard_.rend() && run_.plant().heals_at_once(*latest);
 }
 
 Fault FaultEar::fault_in(const fault_t& message) const {
@@ -97,7 +119,7 @@ Fault FaultEar::fault_in(const fault_t& message) const {
   const bool payload = target == Fault::Target::parameter && message.index == -1;
   return {.target = target,
           .kind = static_cast<Fault::Kind>(message.kind),
-          .index = payload ? payload_in(*experiment_.scene) : message.index,
+          .index = payload ? payload_in(*run_.experiment().scene) : message.index,
           .magnitude = message.magnitude,
           .at = 1e-6 * static_cast<double>(message.utime),
           .duration = message.duration};

@@ -22,7 +22,7 @@ void keep(const std::filesystem::path& folder, const RecordedPlant& run, Result&
 }
 
 void keep_result(const std::filesystem::path& folder, const Result& result) {
-  write_file(folder / "result.json", json_of(result).dump(2) + "\n");
+  write_file(folder / "result.json", json_text(json_of(result), 2) + "\n");
 }
 
 }  // namespace mixloop

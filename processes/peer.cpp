@@ -10,7 +10,8 @@
 
 namespace mixloop {
 
-PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick) {
+PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick,
+                         const char* program) {
   return {.n = experiment.scene->n(),
           .n_u = experiment.scene->n_u(),
           .session = line.session,
@@ -20,7 +21,8 @@ PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std
           .last_tick = last_tick,
           .first_wait = line.first_wait_ns(),
           .patience = line.patience_ns(),
-          .max_missed = experiment.deadline.max_missed};
+          .max_missed = experiment.deadline.max_missed,
+          .notice = [program](const std::string& text) { fmt::print(stderr, "{}: {}\n", program, text); }};
 }
 
 int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop) {

@@ -8,7 +8,8 @@
 namespace mixloop {
 
 /// What controller and planner tell their peer of the bus.
-PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick);
+PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick,
+                         const char* program);
 
 /// How a controller or planner says that it leaves; its exit status.
 int ended(const char* program, Ending ending, const PeerReport& report, const StopSwitch& stop);

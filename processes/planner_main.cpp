@@ -33,7 +33,8 @@ int run(const PeerLine& line) {
                     : k > plan.ticks()    ? reference_t::PHASE_HOLD
                                           : reference_t::PHASE_PATH;
   };
-  PlannerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks()), std::move(side));
+  PlannerPeer peer(bus, stop, peer_options(line, experiment, plan.ticks(), "mixloop-planner"),
+                   std::move(side));
   // A state wakes controller and planner at once, and only the controller's answer is waited for.
   line.take_rights("mixloop-planner", line.session == 0, 1);
   if (line.session == 0) line.say_waiting("mixloop-planner", "a plant", "STATE");

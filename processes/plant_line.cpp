@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "processes/plant_line.hpp"
 
+#include <fmt/format.h>
+
 #include "processes/config_words.hpp"
 #include "processes/speed.hpp"
 
@@ -24,7 +26,10 @@ PlantOptions plant_options(const PlantLine& line, const Experiment& experiment, 
           .paused = line.paused,
           .max_missed = experiment.deadline.max_missed,
           .first_wait = line.first_wait_ns(),
-          .patience = line.patience_ns()};
+          .patience = line.patience_ns(),
+          .notice = [is_told = line.report_fd < 0](const std::string& text) {
+            if (is_told) fmt::print(stderr, "mixloop-plant: {}\n", text);
+          }};
 }
 
 }  // namespace mixloop

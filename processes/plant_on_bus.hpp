@@ -20,8 +20,8 @@ class PlantOnBus : public Side {
   PlantOnBus(RecordedPlant& run, std::function<bool(std::int64_t)> goes_on);
 
   /// From now on it takes the operator's faults from there, where they are allowed.
-  void listen(Bus& bus, bool allowed, PlantReport& report) {
-    ear_.emplace(bus, run_.experiment(), allowed, report);
+  void listen(Bus& bus, bool allowed, std::int64_t config, PlantReport& report) {
+    ear_.emplace(bus, run_, allowed, config, report);
   }
 
   bool measure(std::int64_t tick, std::span<double> psi, std::span<double> psid) override;
@@ -31,9 +31,8 @@ class PlantOnBus : public Side {
   /// `tick(faults, goes_on)`, and the faults are taken.
   template <class Tick>
   bool live_through(const Tick& tick) {
-    const std::int64_t before = run_.faults_not_taken();
     const bool sound = tick(ear_ ? ear_->heard() : std::span<const Fault>(), goes_on_);
-    if (ear_) ear_->forget(run_.faults_not_taken() - before);
+    if (ear_) ear_->forget();
     return sound;
   }
 

@@ -28,8 +28,9 @@ template <class Runner, class Hardware>
 Ending PlantSession::run_as(Bus& bus, const StopSwitch& stop, std::int64_t session,
                             std::int64_t next_session) {
   Hardware hardware(run_, [this](std::int64_t k) { return goes_on(k); });
-  Runner runner(bus, stop, plant_options(line_, run_.experiment(), run_.plan().ticks(), session), hardware);
-  hardware.listen(bus, line_.allow_faults, runner.report());
+  const PlantOptions options = plant_options(line_, run_.experiment(), run_.plan().ticks(), session);
+  Runner runner(bus, stop, options, hardware);
+  hardware.listen(bus, line_.allow_faults, options.config, runner.report());
   line_.take_rights("mixloop-plant", true);
   return drive(runner, next_session);
 }
@@ -68,20 +69,20 @@ void PlantSession::finish(const RunFault* fault) {
   finished_ = true;
   const Uninterrupted whole;  // what there is is told and kept
   const Experiment& experiment = run_.experiment();
-  Result result =
-      result_of(experiment, run_.recorder().measures(), line_.real_time ? "real_time" : "lockstep",
-                std::chrono::duration<double>(bus_->wall_time).count());
+  Result result = result_of(experiment, run_.recorder().measures(),
+                            line_.real_time ? "real_time" : "lockstep", run_.plant().equations().evaluation(),
+                            std::chrono::duration<double>(bus_->wall_time).count());
   // One that was stopped is not looked back on, and one that holds on has deadlines to meet.
   if (const bool stopped = !fault && result.run->measures.interrupted_at; !stopped && !line_.hold)
     result.warnings = review(experiment, run_.plan(), run_.recorder());
+  if (const auto rival = describe(bus_->rival, line_.bus.prefix + "COMMAND"); !rival.empty()) {
+    if (!result.warnings) result.warnings.emplace();
+    result.warnings->push_back(rival);
+  }
   result.session = bus_->session;
   result.bus = bus_figures(*bus_);
   if (line_.real_time) add_deadlines(*result.bus, *bus_, run_.deadlines(), experiment.deadline.safe_state);
-  if (fault) {
-    result.judged.verdict = Verdict::fault;
-    result.judged.exit_status = kRunFault;
-    result.error = {.code = fault->code, .message = fault->what()};
-  }
+  if (fault) result = failed(std::move(result), *fault);
   status_ = result.judged.exit_status;
   if (!line_.out.empty()) {
     report_.keeping();

@@ -25,7 +25,7 @@ void ReportLine::tick(std::int64_t k) {
 void ReportLine::keeping() const { say(R"({"keeping": true})"); }
 
 void ReportLine::result(const Result& result) const {
-  if (fd_ >= 0) say(nlohmann::json{{"result", json_of(result)}}.dump());
+  if (fd_ >= 0) say(json_text({{"result", json_of(result)}}));
 }
 
 void ReportLine::say(const std::string& line) const {

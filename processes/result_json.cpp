@@ -192,6 +192,8 @@ void fields(const Way& f, B& bus) {
   f("slipped", bus.slipped);
   f("rejected", bus.rejected);
   f("rejected_by_cause", bus.rejected_by_cause);
+  f("refused_faults", bus.refused_faults);
+  f("dropped", bus.dropped);
   f("joined_late", bus.joined_late);
 }
 
@@ -227,6 +229,10 @@ void fields(const Way& f, R& result) {
 }
 
 }  // namespace
+
+std::string json_text(const nlohmann::json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 nlohmann::json json_of(const Result& result) {
   auto out = nlohmann::json::object();

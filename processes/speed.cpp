@@ -2,6 +2,7 @@
 #include "processes/speed.hpp"
 
 #include "notation/value.hpp"
+#include "runtime/protocol/conductor.hpp"
 
 namespace mixloop {
 
@@ -11,6 +12,8 @@ double speed_of(const std::string& text) {
   if (!(speed > 0))
     throw InputError("out_of_range", {"--speed"},
                      "'" + text + "'; expected max or a positive factor of real time, e.g. 0.1, 1, 10");
+  if (const char* reason = objection_to_speed(speed, false))
+    throw InputError("out_of_range", {"--speed"}, "'" + text + "'; " + reason);
   return speed;
 }
 

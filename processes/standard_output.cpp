@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "processes/standard_output.hpp"
 
+#include <fcntl.h>
+
 #include <cerrno>
 #include <cstdio>
 
@@ -10,6 +12,12 @@ namespace {
 int first_failure = 0;
 
 }  // namespace
+
+void open_standard_files() {
+  // open() takes the lowest number that is free.
+  for (int fd = 0; fd <= 2; ++fd)
+    if (fcntl(fd, F_GETFD) < 0 && errno == EBADF) open("/dev/null", O_RDWR);
+}
 
 void remember_output_failure(int error) {
   if (first_failure == 0) first_failure = error;

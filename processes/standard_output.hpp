@@ -3,6 +3,10 @@
 
 namespace mixloop {
 
+/// Opens on /dev/null what this process was started without of stdin, stdout and stderr: else the first log
+/// or result would take its place, and what is said would go there. Before anything else is opened.
+void open_standard_files();
+
 /// Writes out what stdout has buffered. A failure is remembered, for standard_output_failure.
 void flush_standard_output();
 

@@ -87,6 +87,8 @@ std::string summary(const Experiment& experiment, const Result& result) {
                       run.route, run.wall_time, run.evaluation);
   if (run.integrator.chosen) text += "  integrator       " + run.integrator.chosen->why + "\n";
   if (!measures.trajectory_sha256.empty()) text += "  trajectory       " + measures.trajectory_sha256 + "\n";
+  if (const auto missing = result.missing_ticks.value_or(0); missing > 0)
+    text += fmt::format("  {} ticks are missing: the rest was heard and measured\n", missing);
   for (const auto& line : result.judged.missed) text += "  missed: " + line + "\n";
   return text;
 }

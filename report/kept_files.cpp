@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "notation/sha256.hpp"
+#include "report/kept_json.hpp"
 
 namespace mixloop {
 namespace {
@@ -33,7 +34,8 @@ std::string foreign_file(const nlohmann::ordered_json& result, const std::filesy
     return (*files)[name] == sha256_of(file) ? ""
                                              : of_another_run(file, "its SHA-256 is not the one noted there");
   }
-  if (name == "ages.csv" && result.value("route", "real_time") != "real_time")
+  const KeptJson kept(result, file.parent_path() / "result.json");
+  if (name == "ages.csv" && kept.value<std::string>("route", "real_time") != "real_time")
     return of_another_run(file, "that one was not in real time");
   return "";
 }
@@ -43,7 +45,7 @@ std::string foreign_log(const nlohmann::ordered_json& result, const std::filesys
   // Of a stranger's plant a result has the log, and no session.
   if (!result.contains("verdict") || (!result.contains("session") && result.contains("log"))) return "";
   if (!result.contains("session")) return of_another_run(log, "that one was not over the bus");
-  const auto session = result.at("session").get<std::int64_t>();
+  const auto session = KeptJson(result, log.parent_path() / "result.json").value<std::int64_t>("session");
   if (sessions.contains(session)) return "";
   return of_another_run(log, fmt::format("it has no session {}", session));
 }

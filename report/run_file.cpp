@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <set>
 
@@ -11,7 +12,9 @@
 #include "loop/arrivals_file.hpp"
 #include "loop/inputs.hpp"
 #include "notation/sha256.hpp"
+#include "notation/utf8.hpp"
 #include "report/kept_files.hpp"
+#include "report/kept_json.hpp"
 #include "report/mechanism.hpp"
 #include "report/trajectory_reader.hpp"
 #include "runtime/bus/rejects.hpp"
@@ -29,6 +32,14 @@ ordered_json read_json(const std::filesystem::path& file) {
   return json;
 }
 
+constexpr auto kReplace = ordered_json::error_handler_t::replace;
+
+double rate_in(const std::filesystem::path& file, double rate) {
+  if (rate > 0 && std::isfinite(rate)) return rate;
+  throw InputError("out_of_range", {file.string()},
+                   fmt::format("its 'rate' is {}; expected more than 0 Hz", rate));
+}
+
 bool is_there(const std::filesystem::path& file) {
   std::error_code failed;
   return std::filesystem::exists(file, failed);
@@ -44,18 +55,26 @@ struct Known {
 
 Known from_inputs(const std::filesystem::path& file) {
   Known known{.inputs = read_json(file)};
-  const auto at = [&](const char* key) -> const ordered_json& {
-    if (!known.inputs.contains(key))
-      throw InputError("missing_key", {file.string()},
-                       fmt::format("has no '{}'; expected what --out keeps", key));
-    return known.inputs.at(key);
-  };
-  known.scene = std::make_shared<const Scene>(
-      load_scene(parse_document(at("scene").dump(), file.string() + " (scene)")));
+  const KeptJson kept(known.inputs, file);
+  const std::string scene = kept.value<ordered_json>("scene").dump(-1, ' ', false, kReplace);
+  known.scene = std::make_shared<const Scene>(load_scene(parse_document(scene, file.string() + " (scene)")));
   known.parameters = known.scene->default_parameters();
+  const auto values = kept.value<std::map<std::string, double>>("plant_parameters");
   for (std::size_t i = 0; i < known.parameters.size(); ++i)
-    known.parameters[i] = at("plant_parameters").value(known.scene->parameters[i].name, known.parameters[i]);
-  known.rate_hz = at("rate").get<double>();
+    if (const auto value = values.find(known.scene->parameters[i].name); value != values.end())
+      known.parameters[i] = value->second;
+  known.rate_hz = rate_in(file, kept.value<double>("rate"));
+  // What a page draws of the rest.
+  kept.value<std::string>("name", "");
+  kept.value<std::map<std::string, ordered_json>>("limits", {});
+  using Entries = std::map<std::string, ordered_json>;
+  for (const Entries& fault : kept.value<std::vector<Entries>>("faults", {})) {
+    const ordered_json entries(fault);
+    const KeptJson one(entries, file);
+    one.value<std::string>("text", "");
+    one.value<double>("at", 0);
+    one.value<double>("until", 0);
+  }
   return known;
 }
 
@@ -106,10 +125,11 @@ void add_notes(const LogFacts& facts, std::vector<std::string>& notes) {
 }
 
 /// Why a run ended early, and what its plant could not take; doubled messages alone are a lossy network's.
-void add_what_went_wrong(const nlohmann::json& result, std::vector<std::string>& notes) {
-  if (const auto error = result.find("error"); error != result.end())
-    notes.push_back("The run ended by a fault: " + error->value("message", "") + ".");
-  const auto by_cause = result.value("rejected_by_cause", std::map<std::string, std::int64_t>());
+void add_what_went_wrong(const KeptJson& result, std::vector<std::string>& notes) {
+  const auto error = result.value<std::map<std::string, std::string>>("error", {});
+  if (const auto message = error.find("message"); message != error.end())
+    notes.push_back("The run ended by a fault: " + message->second + ".");
+  const auto by_cause = result.value<std::map<std::string, std::int64_t>>("rejected_by_cause", {});
   std::string dropped;
   for (const auto& [cause, count] : by_cause)
     if (count > 0 && cause != "stale")
@@ -119,6 +139,7 @@ void add_what_went_wrong(const nlohmann::json& result, std::vector<std::string>&
 
 /// The log beside a result, where it is of the same run.
 void take_log(RunFile& run, const std::filesystem::path& log, const ReadOptions& options) {
+  const std::filesystem::path result_file = log.parent_path() / "result.json";
   const auto sessions = sessions_in(log, options.prefix);
   std::set<std::int64_t> ids;
   for (const auto& session : sessions) ids.insert(session.session);
@@ -127,18 +148,22 @@ void take_log(RunFile& run, const std::filesystem::path& log, const ReadOptions&
     return;
   }
   run.log = log;
-  run.session = chosen_session(log, sessions, run.result.value("session", options.session), run.notes);
+  run.session = chosen_session(
+      log, sessions, KeptJson(run.result, result_file).value<std::int64_t>("session", options.session),
+      run.notes);
 }
 
 /// What is known before the ticks: of a folder, then of a log.
 RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& options, Known& known) {
-  RunFile run{.label = folder.filename().string(),
-              .source = folder.string(),
+  RunFile run{.label = printable_name(folder.filename().string()),
+              .source = printable_name(folder.string()),
               .trajectory = folder / "trajectory.csv"};
   run.sizes = TrajectoryReader(run.trajectory).sizes();
   run.result = read_json(folder / "result.json");
-  run.label = run.result.value("experiment", run.label);
-  run.rate_hz = run.result.value("rate", known.rate_hz > 0 ? known.rate_hz : 1000.0);
+  const KeptJson result(run.result, folder / "result.json");
+  run.label = result.value("experiment", run.label);
+  run.rate_hz =
+      rate_in(folder / "result.json", result.value("rate", known.rate_hz > 0 ? known.rate_hz : 1000.0));
   if (!options.experiment && known.scene)
     if (const std::string why = foreign_inputs(run.result, folder / "inputs.json", *known.scene);
         !why.empty()) {
@@ -156,12 +181,15 @@ RunFile opened_folder(const std::filesystem::path& folder, const ReadOptions& op
       run.notes.push_back(why + " It is left out.");
   }
   if (!known.scene) run.notes.push_back("No inputs.json: dependent coordinates are not shown.");
-  add_what_went_wrong(run.result, run.notes);
+  add_what_went_wrong(result, run.notes);
   return run;
 }
 
 RunFile opened_log(const std::filesystem::path& log, const ReadOptions& options, const Known& known) {
-  RunFile run{.label = log.stem().string(), .source = log.string(), .from_log = true, .log = log};
+  RunFile run{.label = printable_name(log.stem().string()),
+              .source = printable_name(log.string()),
+              .from_log = true,
+              .log = log};
   const auto sessions = sessions_in(log, options.prefix);
   run.session = chosen_session(log, sessions, options.session, run.notes);
   run.sizes.n = static_cast<std::size_t>(run.session->n);

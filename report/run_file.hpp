@@ -23,8 +23,8 @@ struct ReadOptions {
 
 /// A kept result or a log, opened.
 struct RunFile {
-  std::string label, source;
-  bool from_log = false;  ///< its ticks come from a log, not from the plant's memory
+  std::string label, source;  ///< printable
+  bool from_log = false;      ///< its ticks come from a log, not from the plant's memory
   std::filesystem::path trajectory, log, ages;
   std::optional<LogSession> session;
   std::string prefix;

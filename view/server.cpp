@@ -32,6 +32,7 @@ using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
 constexpr auto kRequestLimit = std::chrono::seconds(10);
+constexpr auto kPause = std::chrono::milliseconds(100);
 constexpr std::size_t kMostReceived = 64;  // bytes of a message of the page's: a tick
 
 constexpr const char* kPolicy =
@@ -47,16 +48,17 @@ class Viewer;
 
 struct ServerState {
   explicit ServerState(const ServerOptions& options_)
-      : options(options_), acceptor(context), timer(context) {}
+      : options(options_), acceptor(context), timer(context), refused_for_now(context) {}
 
   void accept();
+  void accept_later();
   void tick(const StopSwitch& stop);
   Response answer(const Request& request) const;
 
   ServerOptions options;
   asio::io_context context{1};
   tcp::acceptor acceptor;
-  asio::steady_timer timer;
+  asio::steady_timer timer, refused_for_now;
   std::string page;
   std::uint16_t port = 0;
   Source* source = nullptr;
@@ -213,8 +215,17 @@ Response ServerState::answer(const Request& request) const {
 void ServerState::accept() {
   acceptor.async_accept([this](error_code failed, tcp::socket socket) {
     if (failed == asio::error::operation_aborted) return;
-    if (!failed) std::make_shared<Conversation>(std::move(socket), *this)->start();
+    if (failed) return accept_later();
+    std::make_shared<Conversation>(std::move(socket), *this)->start();
     accept();
+  });
+}
+
+// Whoever knocks while no descriptor is free waits: at once there would be none again, and again.
+void ServerState::accept_later() {
+  refused_for_now.expires_after(kPause);
+  refused_for_now.async_wait([this](error_code stopped) {
+    if (!stopped) accept();
   });
 }
 

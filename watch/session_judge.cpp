@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/protocol/config_hash.hpp"
+#include "runtime/protocol/ending.hpp"
 
 namespace mixloop {
 
@@ -45,8 +46,9 @@ void SessionJudge::on_command(Bytes bytes) {
 void SessionJudge::on_control(Bytes bytes) {
   if (over() || controls_.read(bytes)) return;
   const sim_control_t& control = controls_.message;
-  if (session_ != 0 && control.session == session_ && control.action == sim_control_t::ACTION_END)
-    end_at(control.seq);
+  if (session_ == 0 || control.session != session_ || control.action != sim_control_t::ACTION_END) return;
+  end_at(control.seq);
+  broken_off_ = ending_of(control.reason) != Ending::finished;
 }
 
 void SessionJudge::judge(const HeardTick& tick) {
@@ -68,11 +70,11 @@ void SessionJudge::judge(const HeardTick& tick) {
 
 Result SessionJudge::finish(bool interrupted, double wall_time) {
   ticks_.finish();
-  if (interrupted) recorder_.interrupted();
+  if (interrupted || broken_off_) recorder_.interrupted();
   Measures measures = recorder_.measures();
   const std::int64_t missing = plan_.ticks() + 1 - complete_;
   if (missing > 0) measures.trajectory_sha256.clear();
-  Result result = result_of(experiment_, measures, "attached", wall_time);
+  Result result = result_of(experiment_, measures, "attached", equations().evaluation(), wall_time);
   result.missing_ticks = missing;
   result.session = session_;
   return result;

@@ -52,6 +52,7 @@ class SessionJudge {
   std::int64_t judged_ = -1, complete_ = 0;
   std::optional<std::int64_t> last_tick_;  ///< of a session that has ended
   bool diverged_ = false, safe_ = false;
+  bool broken_off_ = false;  ///< its END said that it had not finished
 };
 
 }  // namespace mixloop

@@ -68,7 +68,8 @@ template <class Message>
 bool Watch::hear(const Message& message, ChannelCount& count, Instant at) {
   if (message.n < 1 || !is_finite(message)) return false;
   if constexpr (std::is_same_v<Message, state_t>)
-    if (session_.would_follow(message.session, at) && session_.follow(message.session, at)) begin(message);
+    if (session_.would_follow(message.session, at) && session_.follow(message.session, {}, at))
+      begin(message);
   if (message.session != session_.current()) {
     if (heard_state()) ++other_sessions_;
     return true;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dynamics/program/evaluation.hpp"
 #include "dynamics/program/trace.hpp"
 
 namespace mixloop {
@@ -14,10 +16,11 @@ struct Explanation {
   struct Quantity {
     Purpose purpose;
     OperationCount literal;  ///< of the procedure as it stands
-    OperationCount run;      ///< of the program
+    OperationCount run;      ///< of the program; of the procedure where it is too long to trace
     OperationCount set_up;   ///< of what runs when a parameter changes
     Tracing tracing;
-    bool compiled = true;  ///< false: too long, interpreted
+    std::optional<Evaluation>
+        evaluation;  ///< how it is evaluated here; none: a linearisation too long to trace
   };
 
   std::vector<Quantity> quantities;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/program/trace.hpp"
+#include "notation/errors.hpp"
 #include "notation/sha256.hpp"
 
 namespace mixloop {
@@ -30,6 +31,11 @@ std::string firmware_source(const std::shared_ptr<const Scene>& scene, const std
     style.prefix = prefix_of(purpose);
     style.trigonometry = trigonometry;
     const TracedProgram traced = trace(scene, purpose);
+    if (traced.program.outputs.empty())
+      throw InputError("too_large", {scene->name},
+                       fmt::format("{} takes more operations than a program may; expected fewer coordinates, "
+                                   "transforms or bodies",
+                                   name_of(purpose)));
     head += fmt::format("// {}: input: {}; out: {}\n//   {}; set-up {}\n", style.prefix,
                         signature(purpose).takes, signature(purpose).gives,
                         traced.program.run_operations().text(), traced.program.set_up_operations().text());

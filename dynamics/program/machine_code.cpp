@@ -7,8 +7,10 @@ namespace mixloop {
 
 bool is_compiled(const Program& program) {
   const OperationCount run = program.run_operations();
-  return run.flops() + run.sincos <= kMostCompiledOperations;
+  return !program.outputs.empty() && run.flops() + run.sincos <= kMostCompiledOperations;
 }
+
+std::string MachineCode::hindrance() { return SharedObject::hindrance(); }
 
 std::unique_ptr<MachineCode> MachineCode::load(const std::string& key, const std::function<Program()>& trace,
                                                std::string& complaint) {

@@ -15,7 +15,7 @@ namespace mixloop {
 /// gains least on long ones (docs/compiler.md).
 constexpr std::size_t kMostCompiledOperations = 20000;
 
-/// Whether a program is short enough to compile.
+/// Whether there is a program, and it is short enough to compile.
 bool is_compiled(const Program& program);
 
 /// A program built by the system's compiler and loaded.
@@ -26,6 +26,9 @@ class MachineCode final : public Routine {
   /// directory, a full disk, and `complaint` says which; or, with no complaint, a program too long.
   static std::unique_ptr<MachineCode> load(const std::string& key, const std::function<Program()>& trace,
                                            std::string& complaint);
+
+  /// Why no machine code can be had here (no compiler, no private directory); empty where it can.
+  static std::string hindrance();
 
   Memory make_memory() const override { return {std::vector<double>(emitted_.constants()), {}}; }
   void set_up(std::span<const double> parameters, Memory& memory) const noexcept override {

@@ -12,6 +12,7 @@
 #include "dynamics/symbolic/evaluation_angles.hpp"
 #include "dynamics/symbolic/harmonic_form.hpp"
 #include "dynamics/symbolic/tracer.hpp"
+#include "notation/long_work.hpp"
 
 namespace mixloop {
 namespace {
@@ -47,6 +48,19 @@ class FreeTree {
     for (const auto& body : model_.bodies)
       sum -= body.mass * model_.gravity.dot(at_point<double>(frame(body.frame), body.center_of_mass));
     return sum;
+  }
+  /// That the bodies add to the mass matrix.
+  double elements() const {
+    double sum = 0;
+    for (const auto& body : model_.bodies) sum += std::pow(model_.path(body.frame).size(), 2);
+    return sum;
+  }
+  /// The norm of what a moment of inertia of 1 about each of a body's axes adds to the mass matrix that was
+  /// last worked out: (25), O^T I O.
+  Vec3<double> added_by_inertia(const Model<double>::Body& body) {
+    angular_variations<double>(workspace_.frames[static_cast<std::size_t>(body.frame)], workspace_.O);
+    const auto joints = static_cast<Eigen::Index>(model_.path(body.frame).size());
+    return workspace_.O.leftCols(joints).rowwise().squaredNorm();
   }
   Vec3<double> hand() {
     place();
@@ -96,8 +110,15 @@ void about_constraints(const std::shared_ptr<const Scene>& scene, Graph& graph, 
   if (!is_needed[in.t.node()]) say.push_back("No constraint depends on time: no F_t, F_tt or mixed term.");
 }
 
+// As many elements of mass matrices as may be worked out to look at each coordinate by itself.
+constexpr double kMostElements = 1e9;
+
 void about_coordinates(const std::shared_ptr<const Scene>& scene, Sentences& say) {
   FreeTree tree(scene);
+  if (tree.elements() * static_cast<double>(scene->m()) > kMostElements) {
+    say.push_back("It is too large to look at what each coordinate moves.");
+    return;
+  }
   const Matrix S = tree.mass_matrix();
   const double V = tree.potential();
   const Vec3<double> hand = tree.hand();
@@ -105,6 +126,7 @@ void about_coordinates(const std::shared_ptr<const Scene>& scene, Sentences& say
   Sentences no_inertia, no_weight, no_use;
   for (std::size_t j = 0; j < tree.q().size(); ++j) {
     const std::string& name = scene->coordinates[j].name;
+    work_goes_on();
     tree.q()[j] += 0.7;
     const bool turns_S = differ(tree.mass_matrix(), S);
     const bool lifts = std::fabs(tree.potential() - V) > 1e-12 * std::fabs(weight);
@@ -151,9 +173,9 @@ void about_axes(const std::shared_ptr<const Scene>& scene, Sentences& say) {
 void about_bodies(const std::shared_ptr<const Scene>& scene, Sentences& say) {
   constexpr const char* kAxes[] = {"x", "y", "z"};
   FreeTree tree(scene);
-  const Matrix S = tree.mass_matrix();
+  const double scale = tree.mass_matrix().norm();
   for (std::size_t i = 0; i < tree.model().bodies.size(); ++i) {
-    auto& body = tree.model().bodies[i];
+    const auto& body = tree.model().bodies[i];
     const std::string name =
         scene->bodies[i].name.empty() ? fmt::format("body {}", i + 1) : scene->bodies[i].name;
     if (scene->bodies[i].mass.is_zero()) say.push_back(fmt::format("{} is massless.", name));
@@ -162,12 +184,10 @@ void about_bodies(const std::shared_ptr<const Scene>& scene, Sentences& say) {
       continue;
     }
     Sentences none, idle;
+    const Vec3<double> added = tree.added_by_inertia(body);
     for (Eigen::Index a = 0; a < 3; ++a) {
       if (body.inertia(a, a) == 0.0) none.push_back(kAxes[a]);
-      const double kept = body.inertia(a, a);
-      body.inertia(a, a) += 1.0;
-      if (!differ(tree.mass_matrix(), S)) idle.push_back(kAxes[a]);
-      body.inertia(a, a) = kept;
+      if (added[a] <= 1e-12 * (2 * scale + added[a])) idle.push_back(kAxes[a]);
     }
     if (!none.empty())
       say.push_back(fmt::format("{} has no moment of inertia about {}.", name, listed(none)));
@@ -224,11 +244,18 @@ std::vector<std::string> reasons_of(const std::shared_ptr<const Scene>& scene) {
   Sentences say;
   Graph graph;
   const Recording recording(graph);
-  about_constraints(scene, graph, say);
+  const auto if_recordable = [&](auto about) {
+    try {
+      about(scene, graph, say);
+    } catch (const GraphFull& full) {
+      say.push_back(fmt::format("Not recorded: {}.", full.what()));
+    }
+  };
+  if_recordable(about_constraints);
   about_coordinates(scene, say);
   about_axes(scene, say);
   about_bodies(scene, say);
-  about_energy(scene, graph, say);
+  if_recordable(about_energy);
   if (!scene->is_loaded()) say.push_back("No external loads.");
   if (!scene->parameters.empty()) {
     Sentences names;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/program/reference.hpp"
 
+#include <fmt/format.h>
+
 #include "dynamics/procedure/outputs.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/trace.hpp"
+#include "notation/errors.hpp"
 
 namespace mixloop {
 namespace {
@@ -42,8 +45,15 @@ class Reference final : public Routine {
 
 std::unique_ptr<const Routine> reference_routine(std::shared_ptr<const Scene> scene, Purpose purpose) {
   // The procedure evaluates; only its recording can be differentiated.
-  if (purpose == Purpose::linearisation)
-    return std::make_unique<Interpreter>(trace(scene, purpose, Tracing::literal));
+  if (purpose == Purpose::linearisation) {
+    const Program program = trace(scene, purpose, Tracing::literal);
+    if (program.outputs.empty())
+      throw InputError("too_large", {scene->name},
+                       fmt::format("its linearisation takes more than {} operations, which no program may; "
+                                   "expected fewer coordinates, transforms or bodies",
+                                   kMostOfDerivatives));
+    return std::make_unique<Interpreter>(program);
+  }
   return std::make_unique<Reference>(std::move(scene), purpose);
 }
 

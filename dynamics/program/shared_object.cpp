@@ -2,6 +2,7 @@
 #include "dynamics/program/shared_object.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <fstream>
 
@@ -14,6 +15,8 @@ namespace {
 
 // The hash of the sources that write programs: a changed generator finds no entry of the old one's.
 constexpr const char* kGenerator = MIXLOOP_GENERATOR_HASH;
+
+constexpr const char* kNoCompiler = "no C++ compiler (c++, g++, clang++, $CXX)";
 
 std::string entry_key(const std::string& key, const Compiler& compiler) {
   Sha256 hash;
@@ -48,25 +51,34 @@ void SharedObject::Close::operator()(void* library) const { ::dlclose(library); 
 
 void* SharedObject::symbol(const std::string& name) const { return ::dlsym(library_.get(), name.c_str()); }
 
+std::string SharedObject::hindrance() {
+  if (!find_compiler()) return kNoCompiler;
+  std::string complaint;
+  cache_directory(complaint);
+  return complaint;
+}
+
 SharedObject SharedObject::cached(const std::string& key, const std::function<std::string()>& source,
                                   std::string& complaint) {
   SharedObject result;
   const auto compiler = find_compiler();
   if (!compiler) {
-    complaint = "no C++ compiler (c++, g++, clang++, $CXX; on Debian: apt-get install g++)";
+    complaint = kNoCompiler;
     return result;
   }
-  const auto directory = cache_directory();
-  if (!directory) {
-    complaint = "no private cache directory ($MIXLOOP_CACHE)";
-    return result;
-  }
+  const auto directory = cache_directory(complaint);
+  if (!directory) return result;
   const CacheEntry entry(*directory, entry_key(key, *compiler));
-  if (!entry.is_sound()) {
+  result.file_ = entry.sound();
+  if (!result.file_) {
     const std::string text = source();
     if (text.empty() || !build(entry, *directory, *compiler, text, complaint)) return result;
+    result.file_ = entry.sound();
+    if (!result.file_) complaint = "cannot read back " + entry.path().string();
+    if (!result.file_) return result;
   }
-  result.library_.reset(::dlopen(entry.path().c_str(), RTLD_NOW | RTLD_LOCAL));
+  result.library_.reset(
+      ::dlopen(fmt::format("/proc/self/fd/{}", result.file_.get()).c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!result) complaint = ::dlerror();
   return result;
 }

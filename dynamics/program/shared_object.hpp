@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "dynamics/program/descriptor.hpp"
+
 namespace mixloop {
 
 /// A loaded library of emitted code.
@@ -16,6 +18,9 @@ class SharedObject {
   static SharedObject cached(const std::string& key, const std::function<std::string()>& source,
                              std::string& complaint);
 
+  /// Why none can be had here, whatever it is: no compiler, no private cache; empty where it can.
+  static std::string hindrance();
+
   explicit operator bool() const { return library_ != nullptr; }
   /// The address of an exported symbol; nullptr if there is none.
   void* symbol(const std::string& name) const;
@@ -24,6 +29,7 @@ class SharedObject {
   struct Close {
     void operator()(void* library) const;
   };
+  Descriptor file_;  ///< open as long as the library is loaded: its name there is the descriptor's number
   std::unique_ptr<void, Close> library_;
 };
 

@@ -9,6 +9,9 @@
 namespace mixloop {
 namespace {
 
+// Nodes. Longer programs are interpreted, in runs of like operations, which no chain holds up.
+constexpr std::size_t kMostShortened = 200'000;
+
 bool is_sum(Op op) { return op == Op::add || op == Op::sub; }
 
 class Rebuilder {
@@ -126,6 +129,7 @@ class Rebuilder {
 }  // namespace
 
 Program with_short_chains(const Program& program) {
+  if (program.nodes.size() > kMostShortened) return program;
   Program rebuilt = Rebuilder(program).rebuilt();
   return rebuilt.run_operations().flops() <= program.run_operations().flops() ? rebuilt : program;
 }

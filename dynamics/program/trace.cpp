@@ -102,12 +102,17 @@ std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, T
 }  // namespace
 
 Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracing tracing) {
-  Graph graph;
-  const Recording recording(graph);
   if (tracing == Tracing::articulated && !signature(purpose).gives_psidd) return {};  // as the recursive one
-  const auto tracer = make_tracer(scene, tracing);
-  if (!tracer) return {};
-  return with_short_chains(make_program(graph, outputs_of(graph, scene, purpose, *tracer)));
+  try {
+    // A linearisation, which nothing stands in for, may take more.
+    Graph graph(purpose == Purpose::linearisation ? kMostOfDerivatives : Graph::kMostNodes);
+    const Recording recording(graph);
+    const auto tracer = make_tracer(scene, tracing);
+    if (!tracer) return {};
+    return with_short_chains(make_program(graph, outputs_of(graph, scene, purpose, *tracer)));
+  } catch (const GraphFull&) {
+    return {};
+  }
 }
 
 double estimated_time(const OperationCount& count) {

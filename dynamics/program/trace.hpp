@@ -22,10 +22,15 @@ struct TracedProgram {
   Tracing tracing = Tracing::literal;
 };
 
-/// The program of a purpose by one way of tracing; an empty one (no outputs) where that way can't.
+/// Nodes of a linearisation's graph at most, of another purpose's Graph::kMostNodes.
+constexpr std::size_t kMostOfDerivatives = 8 << 20;
+
+/// The program of a purpose by one way of tracing; an empty one (no outputs) where that way can't, or would
+/// take more operations than a graph holds.
 Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracing tracing);
 
-/// The cheapest program that the tracers find for a purpose. The same scene gives the same program on
+/// The cheapest program that the tracers find for a purpose; an empty one where all take more operations than
+/// a graph holds. The same scene gives the same program on
 /// every machine: the choice goes by an estimate (see estimated_time), never by a clock.
 TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose);
 

@@ -7,6 +7,7 @@
 #include "dynamics/scene/continuous_angles.hpp"
 #include "dynamics/scene/draft.hpp"
 #include "dynamics/scene/scene_keys.hpp"
+#include "notation/utf8.hpp"
 #include "notation/value.hpp"
 
 namespace mixloop {
@@ -15,7 +16,7 @@ namespace {
 void read_name(const Mapping& root, Scene& scene) {
   const NodePtr node = root.find("name");
   scene.name = node ? text_of(*node, "the scene's name")
-                    : std::filesystem::path(root.node().place.file).stem().string();
+                    : printable_name(std::filesystem::path(root.node().place.file).stem().string());
 }
 
 void read_end_effector(const Mapping& root, SceneDraft& draft) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/symbolic/derivative.hpp"
 
+#include <algorithm>
+
 #include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
@@ -11,12 +13,21 @@ Partials partials(const Graph& graph, NodeId id) {
   return operation(n.op).partials(Expression::of(n.a), Expression::of(n.b), Expression::of(id));
 }
 
+// As needed(), no farther than the last of the outputs and inputs: a graph may have grown far past them.
+std::vector<bool> needed_with(const Graph& graph, std::span<const NodeId> outputs,
+                              std::span<const NodeId> inputs) {
+  NodeId last = 0;
+  for (const auto& nodes : {outputs, inputs})
+    for (NodeId node : nodes) last = std::max(last, node);
+  return needed(graph, outputs, last + 1);
+}
+
 }  // namespace
 
 std::vector<NodeId> tangents(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs,
                              std::span<const NodeId> seeds) {
   Recording recording(graph);
-  const std::vector<bool> is_needed = needed(graph, outputs);
+  const std::vector<bool> is_needed = needed_with(graph, outputs, inputs);
   std::vector<Expression> dot(is_needed.size());
   std::vector<bool> is_input(is_needed.size(), false);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -65,7 +76,7 @@ std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId
 
 std::vector<NodeId> substituted(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs,
                                 std::span<const NodeId> replacements) {
-  const std::vector<bool> is_needed = needed(graph, outputs);
+  const std::vector<bool> is_needed = needed_with(graph, outputs, inputs);
   std::vector<NodeId> now(is_needed.size());
   for (NodeId id = 0; id < is_needed.size(); ++id) now[id] = id;
   for (std::size_t i = 0; i < inputs.size(); ++i) now[inputs[i]] = replacements[i];

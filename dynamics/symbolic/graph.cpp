@@ -12,7 +12,9 @@ namespace mixloop {
 
 double apply(Op op, double a, double b) { return operation(op).value(a, b); }
 
-std::size_t Graph::KeyHash::operator()(const ExpressionNode& n) const {
+namespace {
+
+std::uint64_t hash_of(const ExpressionNode& n) {
   std::uint64_t h = static_cast<std::uint64_t>(n.op) * 0x9E3779B97F4A7C15u;
   for (std::uint64_t part : {(std::uint64_t{n.a} << 32) | n.b, std::bit_cast<std::uint64_t>(n.value)}) {
     h = (h ^ part) * 0xBF58476D1CE4E5B9u;
@@ -21,26 +23,45 @@ std::size_t Graph::KeyHash::operator()(const ExpressionNode& n) const {
   return h;
 }
 
-bool Graph::KeyEqual::operator()(const ExpressionNode& a, const ExpressionNode& b) const {
+bool are_equal(const ExpressionNode& a, const ExpressionNode& b) {
   return a.op == b.op && a.a == b.a && a.b == b.b &&
          std::bit_cast<std::uint64_t>(a.value) == std::bit_cast<std::uint64_t>(b.value);
 }
 
-Graph::Graph() {
+}  // namespace
+
+Graph::Graph(std::size_t most_nodes) : most_nodes_(most_nodes), ids_(1024, kNone) {
   zero_ = constant(0.0);
   one_ = constant(1.0);
 }
 
+// Where the node stands among ids_, or would.
+std::size_t Graph::place_of(const ExpressionNode& node) const {
+  std::size_t place = hash_of(node) & (ids_.size() - 1);
+  while (ids_[place] != kNone && !are_equal(nodes_[ids_[place]], node))
+    place = (place + 1) & (ids_.size() - 1);
+  return place;
+}
+
+void Graph::widen() {
+  ids_.assign(2 * ids_.size(), kNone);
+  for (NodeId id = 0; id < nodes_.size(); ++id) ids_[place_of(nodes_[id])] = id;
+}
+
 NodeId Graph::intern(const ExpressionNode& node) {
   work_goes_on();
-  auto [found, fresh] = ids_.try_emplace(node, static_cast<NodeId>(nodes_.size()));
-  if (fresh) nodes_.push_back(node);
-  return found->second;
+  NodeId& id = ids_[place_of(node)];
+  if (id != kNone) return id;
+  if (nodes_.size() == most_nodes_) throw GraphFull();
+  const NodeId fresh = id = static_cast<NodeId>(nodes_.size());
+  nodes_.push_back(node);
+  if (2 * nodes_.size() > ids_.size()) widen();
+  return fresh;
 }
 
 std::optional<NodeId> Graph::known(const ExpressionNode& node) const {
-  const auto found = ids_.find(node);
-  return found == ids_.end() ? std::nullopt : std::optional(found->second);
+  const NodeId id = ids_[place_of(node)];
+  return id == kNone ? std::nullopt : std::optional(id);
 }
 
 NodeId Graph::constant(double value) {
@@ -174,10 +195,10 @@ std::optional<NodeId> Graph::pythagoras(NodeId a, NodeId b) {
   return std::nullopt;
 }
 
-std::vector<bool> needed(const Graph& graph, std::span<const NodeId> roots) {
-  std::vector<bool> is_needed(graph.size(), false);
+std::vector<bool> needed(const Graph& graph, std::span<const NodeId> roots, std::size_t count) {
+  std::vector<bool> is_needed(count, false);
   for (NodeId root : roots) is_needed[root] = true;
-  for (NodeId id = static_cast<NodeId>(graph.size()); id-- > 0;) {
+  for (NodeId id = static_cast<NodeId>(count); id-- > 0;) {
     const ExpressionNode& n = graph[id];
     if (!is_needed[id] || is_leaf(n.op)) continue;
     is_needed[n.a] = true;

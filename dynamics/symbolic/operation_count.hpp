@@ -13,6 +13,10 @@ struct OperationCount {
 
   /// Everything but the sine/cosine pairs.
   std::size_t flops() const { return add + mul + div + sqrt + other; }
+  /// Of so many pieces alike.
+  OperationCount times(std::size_t pieces) const {
+    return {add * pieces, mul * pieces, div * pieces, sqrt * pieces, sincos * pieces, other * pieces};
+  }
   /// `85 add + 64 mul + 1 div + 3 sincos`.
   std::string text() const;
 };

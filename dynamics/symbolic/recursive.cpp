@@ -25,6 +25,7 @@ class RecursiveTracer final : public Tracer {
   explicit RecursiveTracer(const std::shared_ptr<const Scene>& scene) : frames_(scene) {}
 
   ExpressionMatrix mass_matrix() override {
+    if (is_long()) return mass_matrix_by_columns();
     const ExpressionMatrix SC = dependent_mass_matrix().lazyProduct(C());
     const int n = model().n();
     ExpressionMatrix M(n, n);
@@ -33,12 +34,9 @@ class RecursiveTracer final : public Tracer {
     return M;
   }
 
-  // Newton-Euler at rest without weight: what the accelerations C a take.
   ExpressionVector mass_times(const ExpressionVector& a) override {
-    const Driven at_rest{ExpressionVector::Constant(model().m(), E(0.0)), zero3()};
     const ExpressionVector qdd = C().lazyProduct(a);
-    std::vector<Wrench> wrench = inertial_wrenches(qdd, at_rest);
-    return C().transpose().lazyProduct(along_coordinates(wrench));
+    return C().transpose().lazyProduct(dependent_mass_times(qdd));
   }
 
   ExpressionVector bias() override { return forces(at().q_bias); }
@@ -50,7 +48,8 @@ class RecursiveTracer final : public Tracer {
 
   Energy<E> energy() override {
     Energy<E> energy;
-    const ExpressionVector momentum = dependent_mass_matrix().lazyProduct(at().qd);
+    const ExpressionVector momentum =
+        is_long() ? dependent_mass_times(at().qd) : dependent_mass_matrix().lazyProduct(at().qd).eval();
     energy.kinetic = E(0.5) * at().qd.dot(momentum);
     energy.potential = potential();
     return energy;
@@ -63,6 +62,33 @@ class RecursiveTracer final : public Tracer {
 
   const E& along_axis(std::size_t i, const Wrench& mid) const {
     return frames_.prismatic(i) ? mid.force[2] : mid.moment[2];
+  }
+
+  // The composite bodies' matrix takes the square of the links that move, about 20 operations each, a column
+  // of M about 100 a link.
+  bool is_long() const {
+    std::size_t moving = 0;
+    for (std::size_t i = 0; i < frames_.size(); ++i) moving += frames_[i].moves;
+    return moving > 64 && moving > 6 * static_cast<std::size_t>(model().n());
+  }
+
+  ExpressionMatrix mass_matrix_by_columns() {
+    const int n = model().n();
+    ExpressionMatrix M(n, n);
+    for (int j = 0; j < n; ++j) {
+      ExpressionVector unit = ExpressionVector::Constant(n, E(0.0));
+      unit[j] = 1.0;
+      const ExpressionVector column = mass_times(unit);
+      for (int i = j; i < n; ++i) M(i, j) = M(j, i) = column[i];
+    }
+    return M;
+  }
+
+  // S qdd, (27): Newton-Euler at rest without weight, what these accelerations take.
+  ExpressionVector dependent_mass_times(const ExpressionVector& qdd) const {
+    const Driven at_rest{ExpressionVector::Constant(model().m(), E(0.0)), zero3()};
+    std::vector<Wrench> wrench = inertial_wrenches(qdd, at_rest);
+    return along_coordinates(wrench);
   }
 
   // sum -[DD_i] (27), m x m, from composite bodies.

@@ -12,7 +12,6 @@
 #include "notation/errors.hpp"
 #include "runtime/bus/channel_filter.hpp"
 #include "runtime/bus/multicast_route.hpp"
-#include "runtime/bus/receiver.hpp"
 
 namespace mixloop {
 namespace {
@@ -22,6 +21,15 @@ struct Subscription {
   Bus::Handler handler;
   void* context;
 };
+
+/// A core that waits awake leaves its other half the way, and spares power.
+void breathe() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
 
 // As liblcm's, for those that watch the bus.
 constexpr const char* kSelfTest = "LCM_SELF_TEST";
@@ -82,7 +90,7 @@ bool Bus::Connection::handle(const Received& message) const {
   bool heard = false;
   for (const Subscription& subscription : subscriptions) {
     if (subscription.channel != message.channel) continue;
-    subscription.handler(subscription.context, message.data);
+    subscription.handler(subscription.context, message);
     heard = true;
   }
   return heard;
@@ -112,7 +120,34 @@ void Bus::unsubscribe(const std::string& channel) {
   c.listen();
 }
 
+std::uint64_t Bus::dropped() const {
+  const auto& receiver = connection_->receiver;
+  return receiver ? receiver->dropped_by_kernel() + receiver->malformed() : 0;
+}
+
+/// Hands on a message where there is one that somebody waits for.
+bool Bus::take() {
+  if (!connection_->receiver) return false;
+  const Received* message = connection_->receiver->next();
+  return message != nullptr && connection_->handle(*message);
+}
+
+Wake Bus::wait_awake(Instant deadline, const StopSwitch& stop) {
+  for (;;) {
+    if (stop.turned()) return Wake::stop;
+    if (take()) return Wake::message;
+    if (now() >= deadline) return Wake::deadline;
+    breathe();
+  }
+}
+
+void Bus::wait_out(Instant due, const StopSwitch& stop) const {
+  if (!options_.spin) return sleep_until(due);
+  while (now() < due && !stop.turned()) breathe();
+}
+
 Wake Bus::wait(Instant deadline, const StopSwitch& stop) {
+  if (options_.spin) return wait_awake(deadline, stop);
   pollfd fds[] = {{.fd = connection_->fd(), .events = POLLIN, .revents = 0},
                   {.fd = stop.fd(), .events = POLLIN, .revents = 0}};
   for (;;) {
@@ -122,9 +157,7 @@ Wake Bus::wait(Instant deadline, const StopSwitch& stop) {
     const int ready = ppoll(fds, 2, &timeout, nullptr);
     if (ready < 0 && errno != EINTR) throw RunFault("bus", "waiting for messages failed");
     if (stop.turned()) return Wake::stop;
-    if (ready > 0 && fds[0].revents != 0)
-      if (const Received* message = connection_->receiver->next(); message && connection_->handle(*message))
-        return Wake::message;
+    if (ready > 0 && fds[0].revents != 0 && take()) return Wake::message;
     if (ready == 0) return Wake::deadline;
   }
 }

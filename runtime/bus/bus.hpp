@@ -5,16 +5,21 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
-#include "runtime/bus/wire.hpp"
+#include "runtime/bus/receiver.hpp"
 #include "runtime/clock/clock.hpp"
 #include "runtime/clock/stop_switch.hpp"
 
 namespace mixloop {
 
+/// Of a prefix, bytes: names of LCM's channels have 63 at most, and the longest of ours is SIM_CONTROL's.
+constexpr std::size_t kLongestPrefix = 63 - std::string_view("SIM_CONTROL").size();
+
 struct BusOptions {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
   std::string prefix = "MIXLOOP_";  ///< of every channel's name
+  bool spin = false;                ///< wait awake: for who has a core of its own
 };
 
 /// What a wait ended with.
@@ -45,28 +50,45 @@ class Bus {
   /// Doesn't allocate.
   void publish(const std::string& channel, Bytes bytes);
   std::uint64_t failed_sends() const { return failed_sends_; }
+  /// Datagrams that came and were dropped: by the kernel (on other channels, in fragments, or because too
+  /// many waited), or as no message.
+  std::uint64_t dropped() const;
 
-  /// Calls `handler(context, bytes)`, from wait(), for every message on the channel. The handler must not
+  /// Calls `handler(context, message)`, from wait(), for every message on the channel. The handler must not
   /// throw.
-  using Handler = void (*)(void* context, Bytes bytes);
+  using Handler = void (*)(void* context, const Received& message);
   void subscribe(const std::string& channel, Handler handler, void* context);
 
-  /// As above, for a member function: `bus.subscribe<&Peer::on_state>(channel, this)`.
+  /// As above, for a member function that takes the message or its bytes:
+  /// `bus.subscribe<&Peer::on_state>(channel, this)`.
   template <auto Method, class Object>
   void subscribe(const std::string& channel, Object* object) {
     subscribe(
-        channel, [](void* context, Bytes bytes) { (static_cast<Object*>(context)->*Method)(bytes); }, object);
+        channel,
+        [](void* context, const Received& message) {
+          if constexpr (std::is_invocable_v<decltype(Method), Object&, const Received&>)
+            (static_cast<Object*>(context)->*Method)(message);
+          else
+            (static_cast<Object*>(context)->*Method)(message.data);
+        },
+        object);
   }
 
   /// Takes a subscription back; nothing happens where there is none. Not from within a handler.
   void unsubscribe(const std::string& channel);
 
-  /// Waits for one message, until `deadline`, with the kernel's nanosecond timeouts. A message that is
-  /// there is handled even where the deadline is over; a turned switch goes first.
+  /// Waits for one message, until `deadline`, with the kernel's nanosecond timeouts, or awake where the
+  /// options say so. A message that is there is handled even where the deadline is over; a turned switch goes
+  /// first.
   Wake wait(Instant deadline, const StopSwitch& stop);
+  /// Waits for an instant in the same way; messages wait too. May return early where a signal was handled.
+  void wait_out(Instant due, const StopSwitch& stop) const;
 
  private:
   struct Connection;
+
+  Wake wait_awake(Instant deadline, const StopSwitch& stop);
+  bool take();
 
   BusOptions options_;
   std::unique_ptr<Connection> connection_;

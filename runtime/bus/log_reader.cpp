@@ -17,6 +17,8 @@ constexpr std::uint8_t kMagic[] = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kEventHeader = sizeof kMagic + 2 * 8 + 2 * 4;
 constexpr std::size_t kBlock = 1 << 20;
 constexpr std::uint64_t kLongestChannel = 1000;  // LCM's own bound on what it reads
+// Nothing on a bus is longer: a damaged length must not take all memory.
+constexpr std::uint64_t kLongestData = 256 << 20;
 
 bool is_magic(const std::uint8_t* at) { return std::equal(std::begin(kMagic), std::end(kMagic), at); }
 
@@ -84,6 +86,7 @@ bool LogReader::read_event() {
   const std::uint64_t channel_length = big_endian<std::uint32_t>(&window_[at_ + 20]),
                       data_length = big_endian<std::uint32_t>(&window_[at_ + 24]);
   if (channel_length == 0 || channel_length >= kLongestChannel) return false;
+  if (data_length > kLongestData) return note_too_long(data_length);
   const std::size_t length = kEventHeader + channel_length + data_length;
   if (!have(length)) return false;
   if (have(length + sizeof kMagic) && !is_magic(&window_[at_ + length])) return false;
@@ -94,6 +97,14 @@ bool LogReader::read_event() {
             .data = {at + kEventHeader + channel_length, data_length}};
   at_ += length;
   return true;
+}
+
+bool LogReader::note_too_long(std::uint64_t length) {
+  if (too_long_.empty())
+    too_long_ =
+        fmt::format("the event at byte {} claims {} bytes of data, more than the {} that one may have",
+                    position(), length, kLongestData);
+  return false;
 }
 
 // Goes on to the next place past this one where an event may begin, or to the end.
@@ -114,6 +125,7 @@ std::string LogReader::damage() const {
   if (skipped_ > 0)
     text = fmt::format("{} bytes, the first at byte {}, are no whole event and are skipped", skipped_,
                        first_skipped_);
+  if (!too_long_.empty()) text += (text.empty() ? "" : "; ") + too_long_;
   if (cut_off_ > 0)
     text += fmt::format("{}the log is cut off: its last {} bytes are no whole event",
                         text.empty() ? "" : "; ", cut_off_);

@@ -50,6 +50,7 @@ class LogReader {
  private:
   bool have(std::size_t bytes);
   bool read_event();
+  bool note_too_long(std::uint64_t length);
   void skip_to_next();
 
   std::filesystem::path file_;
@@ -59,6 +60,7 @@ class LogReader {
   std::int64_t start_ = 0;
   std::size_t at_ = 0;
   LogEvent event_;
+  std::string too_long_;  ///< of the first event that claims more than it may have, in words
   std::int64_t skipped_ = 0, cut_off_ = 0, first_skipped_ = -1;
 };
 

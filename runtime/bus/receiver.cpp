@@ -70,7 +70,10 @@ const Received* Receiver::next() {
   for (;;) {
     iovec place{datagram_.get(), kLargest};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timeval))> control;
+    sockaddr_in sender{};
     msghdr header{};
+    header.msg_name = &sender;
+    header.msg_namelen = sizeof sender;
     header.msg_iov = &place;
     header.msg_iovlen = 1;
     header.msg_control = control.data();
@@ -79,10 +82,12 @@ const Received* Receiver::next() {
     if (size < 0 && errno == EINTR) continue;
     if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return nullptr;
     if (size < 0) throw RunFault("bus", std::string("reading the bus failed: ") + std::strerror(errno));
-    if ((header.msg_flags & MSG_TRUNC) != 0 || !read(static_cast<std::size_t>(size))) {
+    if ((header.msg_flags & MSG_TRUNC) != 0 ||
+        !read_short_message({datagram_.get(), static_cast<std::size_t>(size)}, message_)) {
       ++malformed_;
       continue;
     }
+    message_.sender = {.address = ntohl(sender.sin_addr.s_addr), .port = ntohs(sender.sin_port)};
     message_.at_us = 0;
     for (const cmsghdr* part = CMSG_FIRSTHDR(&header); part;
          part = CMSG_NXTHDR(&header, const_cast<cmsghdr*>(part)))
@@ -95,16 +100,16 @@ const Received* Receiver::next() {
   }
 }
 
-/// Whether the datagram is a short message; where its parts are.
-bool Receiver::read(std::size_t size) {
-  const std::uint8_t* bytes = datagram_.get();
+bool read_short_message(Bytes datagram, Received& message) {
+  const std::uint8_t* bytes = datagram.data();
+  const std::size_t size = datagram.size();
   if (size < kHeader + 1 || big_endian<std::uint32_t>(bytes) != kShortMessage) return false;
   const std::uint8_t* name = bytes + kHeader;
   const std::size_t room = std::min(size - kHeader, kLongestName + 1);
   const auto* end = static_cast<const std::uint8_t*>(std::memchr(name, 0, room));
   if (end == nullptr) return false;
-  message_.channel = {reinterpret_cast<const char*>(name), static_cast<std::size_t>(end - name)};
-  message_.data = {end + 1, static_cast<std::size_t>(bytes + size - (end + 1))};
+  message.channel = {reinterpret_cast<const char*>(name), static_cast<std::size_t>(end - name)};
+  message.data = {end + 1, static_cast<std::size_t>(bytes + size - (end + 1))};
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/bus/endpoint.hpp"
 #include "runtime/bus/multicast_route.hpp"
 #include "runtime/bus/wire.hpp"
 
@@ -17,14 +18,18 @@ namespace mixloop {
 /// A short message of LCM's UDP multicast format, as it came.
 struct Received {
   std::int64_t at_us = 0;  ///< when the kernel received it, us since 1970; 0 unless it is asked for that
+  Endpoint sender;
   std::string_view channel;
   Bytes data;
 };
 
-/// Hears a multicast group: short messages ("LC02": magic, sequence number, the channel's name and its end,
-/// data), each a datagram, every length checked. Long ones, which LCM sends in fragments ("LC03"), are none
-/// of ours: LCM 1.3.1 puts them together with an offset that wraps. The thread that waits for fd() reads them
-/// itself.
+/// Whether a datagram is a short message ("LC02": magic, sequence number, the channel's name and its end,
+/// data); where its parts are. Every length is checked.
+bool read_short_message(Bytes datagram, Received& message);
+
+/// Hears a multicast group: short messages, each a datagram. Long ones, which LCM sends in fragments
+/// ("LC03"), are none of ours: LCM 1.3.1 puts them together with an offset that wraps. The thread that waits
+/// for fd() reads them itself.
 class Receiver {
  public:
   enum class Times : bool { unknown, of_receipt };
@@ -52,8 +57,6 @@ class Receiver {
   std::uint64_t dropped_by_kernel() const;
 
  private:
-  bool read(std::size_t size);
-
   static constexpr std::size_t kLargest = 65536;  ///< no datagram is larger
 
   int socket_;

@@ -20,7 +20,7 @@ std::string to_string(const Rejects& rejects) {
 }
 
 std::string dropped_in(const timing_t& timing) {
-  return words([&](const RejectRow& row) { return timing.*row.timed; });
+  return words([&](const RejectRow& row) { return timed(timing, row); });
 }
 
 }  // namespace mixloop

@@ -21,9 +21,11 @@ enum class Reject : std::uint8_t {
   config,       ///< of another rate, mechanism, path or parameters
   tick,         ///< a tick that can't be: negative, past the end, from the future
   stale,        ///< a tick that is over: doubled, overtaken or replayed
+  sender,       ///< not from the process of this session that sends them (sole_sender.hpp)
 };
 
-/// A cause, its name, and the member of TIMING that counts it.
+/// A cause, its name, and the member of TIMING that counts it; a second sender's are among the other
+/// sessions'.
 struct RejectRow {
   Reject cause;
   std::string_view name;
@@ -37,7 +39,8 @@ inline constexpr std::array kRejects = {
     RejectRow{Reject::session, "session", &timing_t::rejected_session},
     RejectRow{Reject::config, "config", &timing_t::rejected_config},
     RejectRow{Reject::tick, "tick", &timing_t::rejected_tick},
-    RejectRow{Reject::stale, "stale", &timing_t::rejected_stale}};
+    RejectRow{Reject::stale, "stale", &timing_t::rejected_stale},
+    RejectRow{Reject::sender, "sender", nullptr}};
 
 /// Dropped messages by cause.
 class Rejects {
@@ -49,6 +52,11 @@ class Rejects {
  private:
   std::array<std::uint64_t, kRejects.size()> counts_{};
 };
+
+/// What TIMING says of a cause.
+inline std::int64_t timed(const timing_t& timing, const RejectRow& row) {
+  return row.timed != nullptr ? timing.*row.timed : 0;
+}
 
 /// As "7 length, 5 session".
 std::string to_string(const Rejects& rejects);

@@ -4,6 +4,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -14,7 +15,8 @@ namespace mixloop {
 namespace {
 
 std::atomic<StopSwitch*> signal_switch{nullptr};
-struct sigaction previous_int, previous_term;
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, kSignals.size()> previous;
 
 extern "C" void turn_signal_switch(int signal) {
   const int saved = errno;
@@ -30,8 +32,7 @@ StopSwitch::StopSwitch() : fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
 
 StopSwitch::~StopSwitch() {
   if (has_signals_) {
-    sigaction(SIGINT, &previous_int, nullptr);
-    sigaction(SIGTERM, &previous_term, nullptr);
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &previous[i], nullptr);
     signal_switch = nullptr;
   }
   close(fd_);
@@ -45,8 +46,11 @@ void StopSwitch::turn_on_signals() {
   struct sigaction action {};
   action.sa_handler = turn_signal_switch;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, &previous_int);
-  sigaction(SIGTERM, &action, &previous_term);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &previous[i]);
+    const bool is_to_outlive = kSignals[i] == SIGHUP && previous[i].sa_handler == SIG_IGN;
+    if (!is_to_outlive) sigaction(kSignals[i], &action, nullptr);
+  }
 }
 
 void StopSwitch::turn(int signal) noexcept {

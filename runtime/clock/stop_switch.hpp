@@ -14,7 +14,8 @@ class StopSwitch {
   StopSwitch(const StopSwitch&) = delete;
   StopSwitch& operator=(const StopSwitch&) = delete;
 
-  /// Lets SIGINT and SIGTERM turn this switch until it is destroyed; one switch a process can do so.
+  /// Lets SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP turn this switch until it is destroyed;
+  /// one switch a process can do so.
   void turn_on_signals();
   /// Safe in a signal handler. `signal` is what asked for it, 0 if no signal did.
   void turn(int signal = 0) noexcept;

@@ -13,6 +13,17 @@ constexpr double kSlowest = 1e-6;  // slower, a tick's due time is past what the
 
 }  // namespace
 
+const char* objection_to_speed(double speed, bool real_time) {
+  if (speed == 0)
+    return real_time ? "in real time there is no 'max': expected a factor such as 0.1, 1 or 10 (lockstep, "
+                       "without --realtime, goes as fast as it can)"
+                     : nullptr;
+  if (!(speed >= kSlowest))
+    return "below 1e-6 of real time a tick's end is past what the clock counts: expected 1e-6 or more; "
+           "`mixloop control pause` and `step` go slower";
+  return nullptr;
+}
+
 Conductor::Conductor(int n, std::int64_t session, bool paused, bool real_time)
     : inbox_(n), session_(session), paused_(paused), real_time_(real_time) {}
 
@@ -37,7 +48,8 @@ std::optional<Reject> Conductor::hear(Bytes bytes) {
       reset_ = true;
       break;
     case sim_control_t::ACTION_SPEED:
-      if (control.speed < kSlowest && (control.speed != 0 || real_time_)) return Reject::tick;
+      objection_ = objection_to_speed(control.speed, real_time_);
+      if (objection_ != nullptr) return Reject::tick;
       speed_ = control.speed;
       break;
     default:  // END is the plant's own

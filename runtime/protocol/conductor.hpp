@@ -8,6 +8,10 @@
 
 namespace mixloop {
 
+/// Why a plant can't go at a speed, plant seconds a real second (0: as fast as it goes), in words; null where
+/// it can.
+const char* objection_to_speed(double speed, bool real_time);
+
 /// What an operator asks of the plant's time by SIM_CONTROL: pause, steps, speed, reset. Messages for another
 /// session, and the plant's own, are left alone.
 class Conductor {
@@ -17,6 +21,9 @@ class Conductor {
 
   /// Takes a SIM_CONTROL message; the cause where it is dropped.
   std::optional<Reject> hear(Bytes bytes);
+
+  /// Why the latest speed that was asked for was dropped; null where none was.
+  const char* objection() const { return objection_; }
 
   bool paused() const { return paused_; }
   /// Whether the next tick may begin; while paused, a step that was asked for is used up by it.
@@ -31,6 +38,7 @@ class Conductor {
   bool paused_, real_time_, reset_ = false;
   std::int64_t steps_ = 0;
   std::optional<double> speed_;
+  const char* objection_ = nullptr;
 };
 
 }  // namespace mixloop

@@ -55,6 +55,7 @@ Ending ControllerPeer::run() {
         break;
     }
     require_planner();
+    tell_rival(planner_.rival(), reference_channel_, options_.notice, rival_told_);
     if (in_real_time())
       attend_to_time();
     else
@@ -193,19 +194,22 @@ void ControllerPeer::lost_planner() const {
                                              : ": the planner is missing"));
 }
 
-void ControllerPeer::on_reference(Bytes bytes) {
-  if (const auto cause = check_reference(bytes)) {
+void ControllerPeer::on_reference(const Received& message) {
+  if (const auto cause = check_reference(message)) {
     link_.report.rejects.count(*cause);
-    dropped_.count(*cause, bytes);
+    dropped_.count(*cause, message.data);
     return;
   }
+  planner_.take(message, now());
+  taken_ = header_of(inbox_.message);
   Kept& slot = kept(inbox_.message.seq);
   slot.tick = inbox_.message.seq;
   std::swap(slot.message, inbox_.message);
 }
 
 /// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
-std::optional<Reject> ControllerPeer::check_reference(Bytes bytes) {
+std::optional<Reject> ControllerPeer::check_reference(const Received& message) {
+  const Bytes bytes = message.data;
   if (const auto header = peek(bytes); header && fingerprint(bytes) == reference_t::getHash() &&
                                        link_.check_origin(header->session, header->config) != Reject::session)
     planner_agreement_.hears(options_.config, header->config);
@@ -213,7 +217,15 @@ std::optional<Reject> ControllerPeer::check_reference(Bytes bytes) {
   const reference_t& heard = inbox_.message;
   if (const auto cause = link_.check_origin(heard.session, heard.config)) return cause;
   if (heard.seq < 0) return Reject::tick;
-  if (heard.session == link_.state().session && heard.seq <= answered_) return Reject::stale;
+  const bool of_this_session = heard.session == link_.state().session;
+  const bool is_newest = heard.session == taken_.session && heard.seq == taken_.seq;
+  if (of_this_session && heard.seq <= answered_ && !is_newest) return Reject::stale;
+  if (!planner_.admits(message.sender, now())) {
+    planner_.refuse(message.sender, heard.seq);
+    return Reject::sender;
+  }
+  if (is_newest && planner_.contradicts(message, heard.seq)) return Reject::sender;
+  if (of_this_session && heard.seq <= answered_) return Reject::stale;
   if (heard.seq >= std::max<std::int64_t>(link_.latest(), 0) + kAhead) return Reject::tick;
   const Kept& slot = kept(heard.seq);
   if (slot.tick == heard.seq && slot.message.session == heard.session) return Reject::stale;

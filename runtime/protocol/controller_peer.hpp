@@ -75,8 +75,8 @@ class ControllerPeer {
   void repeat();
   void require_planner() const;
   [[noreturn]] void lost_planner() const;
-  void on_reference(Bytes bytes);
-  std::optional<Reject> check_reference(Bytes bytes);
+  void on_reference(const Received& message);
+  std::optional<Reject> check_reference(const Received& message);
 
   Bus& bus_;
   PeerOptions options_;
@@ -93,6 +93,9 @@ class ControllerPeer {
   bool drained_ = true;         // real time: nothing newer waits to be read
   bool silence_answered_ = false;
   ConfigAgreement planner_agreement_;
+  SoleSender planner_;
+  Header taken_;  ///< of the REFERENCE taken last
+  bool rival_told_ = false;
   Dropped dropped_;  ///< REFERENCEs since the latest state came
 };
 

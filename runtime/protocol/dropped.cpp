@@ -25,6 +25,8 @@ std::string found(Reject cause, const Header& latest, const Header& expected) {
       return "another " + name_difference(expected.config, latest.config);
     case Reject::tick:
       return fmt::format("{}, which can't be; expected {}", latest.seq, expected.seq);
+    case Reject::sender:
+      return "not from who had sent them in this session";
     case Reject::stale:
       break;
   }

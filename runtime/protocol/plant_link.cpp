@@ -37,6 +37,7 @@ PlantLink::Event PlantLink::next(Instant until) {
   heard_ = Event::other;
   const Wake wake = bus_.wait(std::min(deadline_, until), stop_);
   report.failed_sends = bus_.failed_sends();
+  tell_rival(session_.plant().rival(), state_channel_, options_.notice, rival_told_);
   if (wake == Wake::stop) {
     ending_ = Ending::interrupted;
     return Event::over;
@@ -93,18 +94,17 @@ std::optional<Reject> PlantLink::check_origin(std::int64_t session, std::int64_t
   return std::nullopt;
 }
 
-void PlantLink::on_state(Bytes bytes) {
-  if (const auto cause = check_state(bytes)) {
+void PlantLink::on_state(const Received& message) {
+  if (const auto cause = check_state(message)) {
     report.rejects.count(*cause);
-    dropped_.count(*cause, bytes);
+    dropped_.count(*cause, message.data);
     return;
   }
   const state_t& heard = inbox_.message;
   const Instant at = now();
   deadline_ = at + options_.patience;
   dropped_.forget();
-  const bool first = session_.follow(heard.session, at);
-  if (!first && heard.seq < latest()) return report.rejects.count(Reject::stale);
+  const bool first = session_.follow(heard.session, message, at);
   if (!first && heard.seq == latest()) {
     heard_ = Event::repeated;
     return;
@@ -118,10 +118,12 @@ void PlantLink::on_state(Bytes bytes) {
 }
 
 /// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
-std::optional<Reject> PlantLink::check_state(Bytes bytes) {
+std::optional<Reject> PlantLink::check_state(const Received& message) {
+  const Bytes bytes = message.data;
+  const Instant at = now();
   const auto header = peek(bytes);
   const bool ours =
-      header && fingerprint(bytes) == state_t::getHash() && session_.would_follow(header->session, now());
+      header && fingerprint(bytes) == state_t::getHash() && session_.would_follow(header->session, at);
   const bool agrees = ours && agreement_.hears(options_.config, header->config);
   if (const auto cause = inbox_.read(bytes)) return cause;
   if (!ours) return Reject::session;
@@ -129,18 +131,29 @@ std::optional<Reject> PlantLink::check_state(Bytes bytes) {
   const state_t& heard = inbox_.message;
   if (heard.seq < 0 || heard.seq > kFarthestTick || (heard.seq > options_.last_tick && !holds(heard)))
     return Reject::tick;
+  SoleSender& plant = session_.plant();
+  const bool followed = plant.heard() && heard.session == report.session;
+  const bool of_plant = session_.is_the_plants(message.sender);
+  if (followed && heard.seq < latest() && (of_plant || !plant.silent(at))) return Reject::stale;
+  if (!session_.would_follow(heard.session, message.sender, at)) {
+    plant.refuse(message.sender, heard.seq);
+    return Reject::sender;
+  }
+  if (followed && of_plant && heard.seq == latest() && plant.contradicts(message, heard.seq))
+    return Reject::sender;
   return std::nullopt;
 }
 
-void PlantLink::on_control(Bytes bytes) {
+void PlantLink::on_control(const Received& message) {
   const auto reject = [this](Reject cause) { report.rejects.count(cause); };
-  if (const auto cause = control_inbox_.read(bytes)) return reject(*cause);
+  if (const auto cause = control_inbox_.read(message.data)) return reject(*cause);
   const sim_control_t& control = control_inbox_.message;
   if (const auto cause = check_origin(control.session, control.config)) return reject(*cause);
   // The plant's own RESET says which session comes next; an operator's is for the plant alone.
-  if (control.action == sim_control_t::ACTION_RESET && control.seq != 0)
-    return session_.go_over_to(control.seq);
-  if (control.action != sim_control_t::ACTION_END) return;
+  const bool is_reset = control.action == sim_control_t::ACTION_RESET && control.seq != 0;
+  if (!is_reset && control.action != sim_control_t::ACTION_END) return;
+  if (!session_.is_the_plants(message.sender)) return reject(Reject::sender);
+  if (is_reset) return session_.go_over_to(control.seq);
   end_heard_ = true;
   ending_ = ending_of(control.reason);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -30,6 +31,8 @@ struct PeerOptions {
   nanoseconds first_wait = std::chrono::seconds(60);  ///< for the first STATE
   nanoseconds patience = std::chrono::seconds(10);    ///< for any later one
   int max_missed = 20;  ///< real time: so many ticks a reference is extrapolated, a silent plant waited for
+  /// Told of what a person should look after, as of a second sender: at most once of each kind. Optional.
+  std::function<void(const std::string&)> notice;
 };
 
 /// What a controller or planner can tell afterwards.
@@ -42,6 +45,7 @@ struct PeerReport {
   std::int64_t latest = -1;         ///< the latest tick heard
   bool joined_late = false;         ///< first heard its session at a tick past 0
   std::uint64_t failed_sends = 0;
+  std::uint64_t dropped = 0;  ///< datagrams, before anybody looked at them (Bus::dropped)
   Rejects rejects;
 };
 
@@ -80,9 +84,9 @@ class PlantLink {
   Event silence();
   Event judge();
   [[noreturn]] void refuse_config() const;
-  std::optional<Reject> check_state(Bytes bytes);
-  void on_state(Bytes bytes);
-  void on_control(Bytes bytes);
+  std::optional<Reject> check_state(const Received& message);
+  void on_state(const Received& message);
+  void on_control(const Received& message);
   void on_stop(Bytes) { stop_heard_ = true; }
 
   Bus& bus_;
@@ -99,7 +103,7 @@ class PlantLink {
   bool first_of_session_ = false;
   ConfigAgreement agreement_;
   Dropped dropped_;  ///< STATEs since the last that was taken
-  bool end_heard_ = false, stop_heard_ = false;
+  bool end_heard_ = false, stop_heard_ = false, rival_told_ = false;
   Ending ending_ = Ending::finished;
 };
 

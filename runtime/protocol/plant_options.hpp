@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <string>
 
 #include "runtime/clock/clock.hpp"
 #include "runtime/protocol/config_hash.hpp"
@@ -27,6 +29,8 @@ struct PlantOptions {
   nanoseconds slowest_resend = std::chrono::milliseconds(100);
   nanoseconds first_wait = std::chrono::seconds(60);  ///< for the command of tick 0
   nanoseconds patience = std::chrono::seconds(10);    ///< for any later one
+  /// Told of what a person should look after, as of a second sender: at most once of each kind. Optional.
+  std::function<void(const std::string&)> notice;
 };
 
 }  // namespace mixloop

@@ -20,6 +20,8 @@ constexpr auto kLongSilence = std::chrono::seconds(1);
 // A plant that is held by the operator goes on being heard.
 constexpr auto kHeldInterval = std::chrono::milliseconds(100);
 
+bool is_safe(const command_t& command) { return (command.flags & command_t::FLAG_SAFE) != 0; }
+
 PlantOptions with_session(PlantOptions options) {
   if (options.session == 0) options.session = draw_session();
   return options;
@@ -86,11 +88,13 @@ void PlantPort::publish_truth(std::int64_t tick, std::int32_t flags) {
 
 void PlantPort::publish_timing(const DeadlineCounts& deadlines) {
   deadlines_ = deadlines;
-  timing_.send_where_due(bus_, header_of(state_.message), report, deadlines);
+  if (timing_.send_where_due(bus_, header_of(state_.message), report, deadlines))
+    report.dropped = bus_.dropped();
 }
 
 void PlantPort::send_end(Ending ending) {
   report.failed_sends = bus_.failed_sends();
+  report.dropped = bus_.dropped();
   sim_control_t& message = control_.message;
   message.action = sim_control_t::ACTION_END;
   message.reason = end_reason(ending);
@@ -127,6 +131,7 @@ PlantPort::Answer PlantPort::wait_for_command() {
   const Instant began = now();
   nanoseconds interval = options_.first_resend;
   Instant resend = began + interval;
+  if (tick_ == 0) listen_for_plants();
 
   for (;;) {
     if (const Answer answer = wait_until(resend); answer != Answer::due) {
@@ -149,6 +154,8 @@ PlantPort::Answer PlantPort::wait_until(Instant due) {
   for (;;) {
     if (std::exchange(command_heard_, false)) return Answer::command;
     const Wake wake = bus_.wait(due, stop_);
+    report.rival = controller_.rival();
+    tell_rival(report.rival, command_channel_, options_.notice, rival_told_);
     if (const Answer answer = asked(); answer != Answer::due) return answer;
     require_agreement();
     if (!command_heard_ && (wake == Wake::deadline || now() >= due)) return Answer::due;
@@ -172,7 +179,7 @@ PlantPort::Answer PlantPort::wait_for_due(std::int64_t tick) {
         answer != Answer::due && answer != Answer::command)
       return answer;
   if (const Answer answer = asked(); answer != Answer::due) return answer;
-  while (now() < due && !stop_.turned()) sleep_until(due);
+  while (now() < due && !stop_.turned()) bus_.wait_out(due, stop_);
   return began(tick);
 }
 
@@ -203,16 +210,20 @@ PlantPort::Answer PlantPort::wait_while_held() {
 
 // REFERENCEs would wake the plant once a tick for nothing: it hears them only to tell who is missing.
 void PlantPort::listen_for_planner() {
-  if (listens_for_planner_) return;
-  listens_for_planner_ = true;
+  if (std::exchange(listens_for_planner_, true)) return;
   planner_heard_ = false;
   bus_.subscribe<&PlantPort::on_reference>(bus_.channel("REFERENCE"), this);
 }
 
+// Nor does it listen for others of its kind once it has a controller.
+void PlantPort::listen_for_plants() {
+  if (std::exchange(listens_for_plants_, true)) return;
+  bus_.subscribe<&PlantPort::on_state>(state_channel_, this);
+}
+
 void PlantPort::stop_listening() {
-  if (!listens_for_planner_) return;
-  listens_for_planner_ = false;
-  bus_.unsubscribe(bus_.channel("REFERENCE"));
+  if (std::exchange(listens_for_planner_, false)) bus_.unsubscribe(bus_.channel("REFERENCE"));
+  if (std::exchange(listens_for_plants_, false)) bus_.unsubscribe(state_channel_);
 }
 
 void PlantPort::require_agreement() const {
@@ -240,21 +251,26 @@ void PlantPort::lost_peer(nanoseconds waited) const {
           (dropped.empty() ? "" : "dropped there: " + dropped + "; ") +
           (dropped_.are_answers() ? "the controller is there, but what it answers can't be taken"
            : planner_heard_       ? reference_channel + " answers, so the controller is missing"
-                            : reference_channel + " is silent too, so the planner is missing, or both are"));
+                            : reference_channel + " is silent too, so the planner is missing, or both are") +
+          (other_plant_.empty() ? "" : "; " + other_plant_));
 }
 
-void PlantPort::on_command(Bytes bytes) {
-  if (const auto cause = check_command(bytes)) {
+void PlantPort::on_command(const Received& message) {
+  if (const auto cause = check_command(message)) {
     report.rejects.count(*cause);
-    dropped_.count(*cause, bytes);
+    dropped_.count(*cause, message.data);
     return;
   }
+  controller_.take(message, now());
+  taken_.reset();
+  if (!is_safe(inbox_.message)) taken_ = inbox_.message.seq;
   command_heard_ = true;
   if ((inbox_.message.flags & command_t::FLAG_JOINED_LATE) != 0) ++report.joined_late;
 }
 
 /// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
-std::optional<Reject> PlantPort::check_command(Bytes bytes) {
+std::optional<Reject> PlantPort::check_command(const Received& message) {
+  const Bytes bytes = message.data;
   // Another answer must not overwrite one that waits to be applied.
   if (command_heard_) return Reject::stale;
   if (const auto header = peek(bytes);
@@ -264,13 +280,37 @@ std::optional<Reject> PlantPort::check_command(Bytes bytes) {
   const command_t& command = inbox_.message;
   if (command.session != options_.session) return Reject::session;
   if (command.config != options_.config) return Reject::config;
-  if (command.seq < oldest_) return Reject::stale;
   if (command.seq > tick_) return Reject::tick;
+  if (command.seq < oldest_ && command.seq != taken_) return Reject::stale;
+  if (!controller_.admits(message.sender, now())) {
+    controller_.refuse(message.sender, command.seq);
+    return Reject::sender;
+  }
+  // A safe command beside an answer is the same controller's.
+  if (command.seq == taken_ && !is_safe(command) && controller_.contradicts(message, command.seq))
+    return Reject::sender;
+  if (command.seq < oldest_) return Reject::stale;
   return std::nullopt;
 }
 
+/// Its own, too.
+void PlantPort::on_state(const Received& message) {
+  const auto header = peek(message.data);
+  if (!header || fingerprint(message.data) != state_t::getHash()) return;
+  if (header->session == 0 || header->session == options_.session || !other_plant_.empty()) return;
+  other_plant_ = "another plant is on " + state_channel_ + ": session " + std::to_string(header->session) +
+                 " from " + to_string(message.sender) +
+                 "; a controller follows one of both: give one of them another --channel-prefix";
+  if (options_.notice) options_.notice(other_plant_);
+}
+
 void PlantPort::on_control(Bytes bytes) {
-  if (const auto cause = conductor_.hear(bytes)) report.rejects.count(*cause);
+  const auto cause = conductor_.hear(bytes);
+  if (!cause) return;
+  report.rejects.count(*cause);
+  const char* reason = conductor_.objection();
+  if (reason != nullptr && options_.notice && !std::exchange(speed_told_, true))
+    options_.notice(std::string("SIM_CONTROL asks for a speed that can't be: ") + reason);
 }
 
 }  // namespace mixloop

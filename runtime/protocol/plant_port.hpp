@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "runtime/bus/bus.hpp"
@@ -68,13 +69,15 @@ class PlantPort {
   Answer began(std::int64_t tick);
   void send_repeatedly();
   void listen_for_planner();
+  void listen_for_plants();
   void stop_listening();
   void require_agreement() const;
   [[noreturn]] void refuse_config() const;
-  std::optional<Reject> check_command(Bytes bytes);
+  std::optional<Reject> check_command(const Received& message);
   [[noreturn]] void lost_peer(nanoseconds waited) const;
 
-  void on_command(Bytes bytes);
+  void on_command(const Received& message);
+  void on_state(const Received& message);
   void on_control(Bytes bytes);
   void on_stop(Bytes) { stop_heard_ = true; }
   void on_reference(Bytes) { planner_heard_ = true; }
@@ -100,10 +103,14 @@ class PlantPort {
   nanoseconds last_late_{0};
   bool command_heard_ = false;  // inbox_.message is one that is wanted
   bool stop_heard_ = false;
-  bool listens_for_planner_ = false;
+  bool listens_for_planner_ = false, listens_for_plants_ = false;
   bool planner_heard_ = false;
+  std::string other_plant_;  // in words
   ConfigAgreement agreement_;
   Dropped dropped_;  // COMMANDs since the latest STATE was first sent
+  SoleSender controller_;
+  std::optional<std::int64_t> taken_;  // tick of the command taken last, but for a safe one
+  bool rival_told_ = false, speed_told_ = false;
   DeadlineCounts deadlines_;
 };
 

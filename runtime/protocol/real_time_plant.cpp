@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "notation/errors.hpp"
+#include "runtime/protocol/conductor.hpp"
 
 namespace mixloop {
 namespace {
@@ -17,11 +18,8 @@ nanoseconds quarter_tick(const PlantOptions& options) {
 }  // namespace
 
 void require_real_time_speed(double speed) {
-  if (speed > 0) return;
-  throw InputError(
-      "out_of_range", {"--speed"},
-      "in real time there is no 'max': expected a factor such as 0.1, 1 or 10 (lockstep, without "
-      "--realtime, goes as fast as it can)");
+  if (const char* reason = objection_to_speed(speed, true))
+    throw InputError("out_of_range", {"--speed"}, reason);
 }
 
 RealTimePlant::RealTimePlant(Bus& bus, const StopSwitch& stop, const PlantOptions& options,

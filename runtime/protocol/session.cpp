@@ -16,19 +16,19 @@ bool SessionFollower::would_follow(std::int64_t session, Instant at) const {
   if (session == 0) return false;
   if (session == current_) return true;
   if (given_ != 0) return false;
-  return !last_heard_ || at - *last_heard_ > quiet_;
+  return plant_.silent(at);
 }
 
 void SessionFollower::go_over_to(std::int64_t session) {
   current_ = session;
   if (given_ != 0) given_ = session;
-  last_heard_.reset();
+  plant_.begin_again();
 }
 
-bool SessionFollower::follow(std::int64_t session, Instant at) {
-  const bool first = !last_heard_ || session != current_;
+bool SessionFollower::follow(std::int64_t session, const Received& state, Instant at) {
+  const bool first = !plant_.heard() || session != current_ || plant_.sender() != state.sender;
   current_ = session;
-  last_heard_ = at;
+  plant_.take(state, at);
   return first;
 }
 

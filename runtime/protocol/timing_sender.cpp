@@ -23,7 +23,9 @@ void fill(timing_t& m, const PlantReport& report, const DeadlineCounts& deadline
   m.wake_up_max = report.wake_up.max().count();
   m.relative_error = Histogram::kRelativeError;
 
-  for (const RejectRow& row : kRejects) m.*row.timed = count(report.rejects.of(row.cause));
+  for (const RejectRow& row : kRejects)
+    if (row.timed != nullptr) m.*row.timed = count(report.rejects.of(row.cause));
+  m.rejected_session += count(report.rejects.of(Reject::sender));
 }
 
 }  // namespace
@@ -31,14 +33,15 @@ void fill(timing_t& m, const PlantReport& report, const DeadlineCounts& deadline
 TimingSender::TimingSender(Bus& bus, const Header& header)
     : channel_(bus.channel("TIMING")), message_(header.n) {}
 
-void TimingSender::send_where_due(Bus& bus, const Header& header, const PlantReport& report,
+bool TimingSender::send_where_due(Bus& bus, const Header& header, const PlantReport& report,
                                   const DeadlineCounts& deadlines) {
   const Instant at = now();
-  if (at < next_) return;
+  if (at < next_) return false;
   next_ = at + kInterval;
   set_header(message_.message, header);
   fill(message_.message, report, deadlines);
   bus.publish(channel_, message_.encode());
+  return true;
 }
 
 }  // namespace mixloop

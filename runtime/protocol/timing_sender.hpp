@@ -15,8 +15,8 @@ class TimingSender {
  public:
   TimingSender(Bus& bus, const Header& header);
 
-  /// Sends where it is time to; `header` is the latest STATE's.
-  void send_where_due(Bus& bus, const Header& header, const PlantReport& report,
+  /// Sends where it is time to, and says whether; `header` is the latest STATE's.
+  bool send_where_due(Bus& bus, const Header& header, const PlantReport& report,
                       const DeadlineCounts& deadlines);
 
  private:

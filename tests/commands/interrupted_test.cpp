@@ -4,6 +4,7 @@
 
 #include <csignal>
 
+#include "tests/oracles/chains.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/terminal.hpp"
@@ -125,6 +126,13 @@ TEST(Interrupted, DoctorTellsWhatItHas) {
   EXPECT_EQ(interrupted(command, milliseconds(700)), 130) << command.err();
   EXPECT_EQ(command.json()["fit"], false);
   EXPECT_GT(command.json()["findings"].size(), 3U);
+}
+
+TEST(Interrupted, WhileTracingTheLargestSceneEndsSoon) {
+  const ScratchFolder folder;
+  const std::string scene = folder.write("large.yaml", oracle::coiled_chain(1000));
+  Command command(line({"explain", scene}, {}));
+  EXPECT_EQ(interrupted(command, milliseconds(400)), 130) << command.out() << command.err();
 }
 
 TEST(Interrupted, CompilingLeavesNothingBehind) {

@@ -51,6 +51,23 @@ TEST(Output, OfWhichNobodyReadsTheRestIsNoError) {
   EXPECT_THAT(ignored.err(), IsEmpty());
 }
 
+// Else the first file that is opened would be stdout.
+TEST(Output, ThatWasClosedNeverBecomesALogOrAResult) {
+  for (const char* closed : {">&-", "<&- >&- 2>&-", "2>&-"}) {
+    const ScratchFolder folder;
+    for (const std::string& line :
+         {"mixloop run " + experiment("paper"), "mixloop simulate " + experiment("paper")}) {
+      SCOPED_TRACE(line + " " + closed);
+      Shell shell(line + " --out " + folder.file("kept") + " " + closed);
+      EXPECT_EQ(shell.wait(), 0) << shell.out() << shell.err();
+      for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "kept"))
+        EXPECT_EQ(bytes_of(entry.path().string()).find(": held"), std::string::npos) << entry.path();
+      EXPECT_EQ(nlohmann::json::parse(bytes_of(folder.file("kept/result.json")))["exit_status"], 0);
+    }
+    EXPECT_EQ(bytes_of(folder.file("kept/trajectory.csv")).substr(0, 2), "t,");
+  }
+}
+
 TEST(Output, IntoAFileThatIsFullIsAnError) {
   const ScratchFolder folder;
   std::filesystem::create_symlink("/dev/full", folder.file("full.svg"));

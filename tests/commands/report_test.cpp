@@ -101,6 +101,47 @@ TEST(Report, RefusesWhatIsNoResult) {
   expect_refused({"report", one}, 2, "not_a_result", "no JSON object");
 }
 
+/// A kept result in which somebody has written since.
+struct Changed {
+  const char* file;
+  const char* key;
+  const char* to;
+  const char* code;
+};
+
+TEST(Report, RefusesAKeptEntryOfAnotherKindAtItsPlace) {
+  if (!has_pages()) GTEST_SKIP() << "built without npm";
+  const ScratchFolder folder;
+  const std::string kept = simulated(folder, "one");
+  for (const Changed& changed : {Changed{"result.json", "rate", R"("fast")", "wrong_kind"},
+                                 {"result.json", "rate", "-1", "out_of_range"},
+                                 {"result.json", "experiment", "7", "wrong_kind"},
+                                 {"result.json", "error", R"("lost")", "wrong_kind"},
+                                 {"result.json", "rejected_by_cause", "[1]", "wrong_kind"},
+                                 {"inputs.json", "rate", "[]", "wrong_kind"},
+                                 {"inputs.json", "rate", "0", "out_of_range"},
+                                 {"inputs.json", "plant_parameters", "3", "wrong_kind"},
+                                 {"inputs.json", "plant_parameters", R"({"payload": "5 kg"})", "wrong_kind"},
+                                 {"inputs.json", "limits", "3", "wrong_kind"},
+                                 {"inputs.json", "faults", "{}", "wrong_kind"},
+                                 {"inputs.json", "faults", "[3]", "wrong_kind"},
+                                 {"inputs.json", "name", "[1]", "wrong_kind"},
+                                 {"inputs.json", "scene", "3", "wrong_kind"}}) {
+    SCOPED_TRACE(std::string(changed.file) + ", " + changed.key + ": " + changed.to);
+    const std::string path = kept + "/" + changed.file, before = bytes_of(path);
+    auto json = nlohmann::json::parse(before);
+    json[changed.key] = nlohmann::json::parse(changed.to);
+    std::ofstream(path) << json;
+    Command command({bin("mixloop"), "report", kept, "--json"});
+    EXPECT_EQ(command.wait(), 2) << command.out();
+    const auto error = command.json()["error"];
+    EXPECT_EQ(error["code"], changed.code);
+    EXPECT_THAT(error["where"].get<std::string>(), testing::StartsWith(path));
+    EXPECT_THAT(error["message"].get<std::string>(), HasSubstr(changed.key));
+    std::ofstream(path) << before;
+  }
+}
+
 TEST(Report, SaysWhereItCannotWrite) {
   if (!has_pages()) GTEST_SKIP() << "built without npm";
   ScratchFolder folder;

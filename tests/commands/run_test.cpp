@@ -226,13 +226,33 @@ TEST(Run, WaitsAsLongAsItIsTold) {
 }
 
 TEST(Run, TakesAStrangersPlant) {
-  Command command({bin("mixloop"), "run", experiment("paper"), "--without", "plant"});
+  Command command({bin("mixloop"), "run", experiment("paper"), "--without", "plant", "--json"});
   ASSERT_TRUE(eventually([] { return listeners() >= 3; })) << command.err();
   Command plant({bin("mixloop-plant"), experiment("paper"), "--json"});
   EXPECT_EQ(plant.wait(), 0) << plant.err();
   EXPECT_EQ(plant.json()["trajectory_sha256"], simulated_hash());
+  // What was heard of it is judged: all of it.
   EXPECT_EQ(command.wait(), 0) << command.err();
-  EXPECT_THAT(command.err(), HasSubstr("all are there"));
+  EXPECT_EQ(command.json()["trajectory_sha256"], simulated_hash());
+  EXPECT_EQ(command.json()["max_position_error"], plant.json()["max_position_error"]);
+  EXPECT_EQ(command.json()["session"], plant.json()["session"]);
+}
+
+TEST(Run, SaysWhatItMeasuredOfAStrangersPlantThatIsStopped) {
+  Command command({bin("mixloop"), "run", experiment("paper"), "--without", "plant"});
+  ASSERT_TRUE(eventually([] { return listeners() >= 3; })) << command.err();
+  Command plant({bin("mixloop-plant"), experiment("paper"), "--json", "--speed", "0.5"});
+  ASSERT_TRUE(heard("STATE", 100));
+  plant.signal(SIGINT);
+  EXPECT_EQ(plant.wait(), 130) << plant.err();
+  EXPECT_EQ(command.wait(), 130) << command.out() << command.err();
+  EXPECT_THAT(command.out(), HasSubstr("ticks are missing: the rest was heard and measured"));
+}
+
+TEST(Run, SaysThatThereWasNoStrangersPlant) {
+  Command command({bin("mixloop"), "run", experiment("paper"), "--without", "plant", "--first-wait", "0.3"});
+  EXPECT_EQ(command.wait(), 3);
+  EXPECT_THAT(command.err(), HasSubstr("the plant is missing"));
 }
 
 TEST(Run, NamesTheAnswersThatItsPlantCouldNotTake) {

@@ -31,6 +31,13 @@ TEST(Simulate, GivesThePapersExperimentWithContinuousControl) {
   EXPECT_EQ(result["ticks"], 1000);
 }
 
+TEST(Simulate, SaysHowItWasEvaluatedWhateverWasAskedFor) {
+  Command command({bin("mixloop"), "simulate", experiment("paper"), "--json"}, {"MIXLOOP_CXX="});
+  ASSERT_EQ(command.wait(), 0) << command.err();
+  EXPECT_EQ(command.json()["evaluation"], "interpreter");
+  EXPECT_EQ(simulated("paper", {})["evaluation"], "machine_code");
+}
+
 TEST(Simulate, GivesThePapersExperimentWithTorqueHeld) {
   const auto result = simulated("paper", {});
   EXPECT_NEAR(result["max_position_error"], 13.2066936e-3, 0.5e-10);

@@ -53,7 +53,7 @@ TEST(Measures, OfARunThatNeverReachedThePathAreNoneAndHoldNoBound) {
                              measures.final_position_error, measures.rms_position_error})
     EXPECT_TRUE(std::isnan(value)) << value;
   EXPECT_FALSE(measures.max_torque.hasNaN()) << "the move's commands count";
-  const Result result = result_of(experiment, measures, "simulate", 1);
+  const Result result = result_of(experiment, measures, "simulate", Evaluation::interpreter, 1);
   EXPECT_EQ(result.judged.verdict, Verdict::safe_state);
   EXPECT_THAT(result.judged.missed,
               testing::ElementsAre(HasSubstr("max_position_error was never measured; expected at most")));

@@ -27,7 +27,7 @@ TEST(MixedMotors, HaveTheirOwnUnitsInExpectationsAndResults) {
   EXPECT_THAT(missed(experiment.expect, measures),
               ElementsAre("max_torque[0] is 5 N; expected at most 1 N",
                           "max_torque[1] is 5 N m; expected at most 2 N m"));
-  const Result result = result_of(experiment, measures, "simulate", 1);
+  const Result result = result_of(experiment, measures, "simulate", Evaluation::interpreter, 1);
   EXPECT_THAT(result.run->torque_units, ElementsAre("N", "N m"));
 }
 

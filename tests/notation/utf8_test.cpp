@@ -41,5 +41,19 @@ TEST(Utf8, QuotesAreCutBetweenCharacters) {
   EXPECT_EQ(in_quotes("ab\u20acd", 5), "'ab\u20ac...'");
 }
 
+TEST(Utf8, PrintableTextHasNothingThatATerminalObeys) {
+  EXPECT_EQ(printable("\u03c8 is\n\tfine"), "\u03c8 is\n\tfine");
+  EXPECT_EQ(printable("red\x1b[31m\r\x7f"), "red\\x1b[31m\\x0d\\x7f");
+  EXPECT_EQ(printable("a\u009b"
+                      "2J"),
+            "a\\xc2\\x9b"
+            "2J")
+      << "a control character of two bytes";
+  EXPECT_EQ(printable("\xff\xe2\x82"), "\\xff\\xe2\\x82") << "no UTF-8";
+  EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
+  EXPECT_EQ(printable_name("two\nlines\t"), "two\\x0alines\\x09");
+  EXPECT_EQ(in_quotes("\x1b[2J"), "'\\x1b[2J'");
+}
+
 }  // namespace
 }  // namespace mixloop

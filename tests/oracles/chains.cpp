@@ -37,6 +37,22 @@ std::string serial_chain(int n) {
   return scene(motors, coordinates, constraints, transforms, bodies, number(n));
 }
 
+std::string coiled_chain(int n, int motors) {
+  std::string names, coordinates, constraints, transforms, bodies;
+  for (int i = 1; i <= motors; ++i) {
+    names += (i > 1 ? ", psi" : "psi") + number(i);
+    coordinates += (i > 1 ? ", q" : "q") + number(i);
+    constraints += "  q" + number(i) + ": psi" + number(i) + "\n";
+  }
+  for (int i = 1; i <= n; ++i) {
+    transforms += "  - {from: " + number(i - 1) + ", to: " + number(i) + ", theta: q" +
+                  number((i - 1) % motors + 1) +
+                  ", s: 0.001, a: 0.003, alpha: " + (i % 2 == 0 ? "-90 deg" : "30 deg") + "}\n";
+    bodies += body(i, number(i));
+  }
+  return scene(names, coordinates, constraints, transforms, bodies, number(n));
+}
+
 std::string parallelogram_chain(int n) {
   std::string motors, coordinates, constraints, transforms, bodies, base = "0";
   for (int i = 1; i <= n; ++i) {

@@ -10,6 +10,9 @@ namespace mixloop::oracle {
 /// inertia tensor on each.
 std::string serial_chain(int n);
 
+/// n revolute joints in series that a few motors turn, each motor those of every so many links.
+std::string coiled_chain(int n, int motors = 1);
+
 /// n parallelograms, each on the coupler of the one before and in a plane at right angles to it; three bodies
 /// and three dependent coordinates a stage, the constraints linear.
 std::string parallelogram_chain(int n);

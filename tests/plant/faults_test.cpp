@@ -193,6 +193,7 @@ TEST(Faults, ThatCannotBeAreNotInjected) {
         << static_cast<int>(fault.target) << " " << static_cast<int>(fault.kind);
   for (std::size_t i = 0; i < Faults::kWaiting; ++i) EXPECT_TRUE(plant.inject({.kind = Kind::off, .at = 1}));
   EXPECT_FALSE(plant.inject({.kind = Kind::off, .at = 1})) << "no more can wait";
+  EXPECT_TRUE(plant.inject({})) << "what heals at once needn't";
 }
 
 TEST(Faults, AndAllElseAllocateNothing) {

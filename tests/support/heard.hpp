@@ -24,7 +24,7 @@ inline bool heard(const char* channel, int times) {
   Bus bus;
   int count = 0;
   bus.subscribe(
-      bus.channel(channel), [](void* counter, Bytes) { ++*static_cast<int*>(counter); }, &count);
+      bus.channel(channel), [](void* counter, const Received&) { ++*static_cast<int*>(counter); }, &count);
   const StopSwitch never;
   for (const Instant until = now() + std::chrono::minutes(1); count < times && now() < until;)
     bus.wait(until, never);

@@ -120,6 +120,18 @@ TEST(Certification, ArticulatedBodiesAreAsExactOnTreesAndLongChains) {
   }
 }
 
+// Where links are many and motors few, the mass matrix is traced column by column.
+TEST(Certification, LongChainsOfFewMotorsAreAsExactAsTheProcedure) {
+  const auto coiled =
+      std::make_shared<const Scene>(load_scene(parse_document(oracle::coiled_chain(80, 3), "coiled")));
+  for (Purpose purpose : {Purpose::mass_matrix, Purpose::forward_dynamics, Purpose::energy}) {
+    const double reference = worst_error(coiled, purpose, *reference_routine(coiled, purpose), 3, 1);
+    const Interpreter interpreter(trace(coiled, purpose, Tracing::recursive));
+    EXPECT_LE(worst_error(coiled, purpose, interpreter, 3, 1), std::max(kMostUlps, 3.0 * reference))
+        << name_of(purpose);
+  }
+}
+
 // No blow-up: from n to 2n at most four times the operations, to n = 32; articulated bodies grow in
 // proportion.
 TEST(Certification, OperationsGrowNoFasterThanTheSquare) {

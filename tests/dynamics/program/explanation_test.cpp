@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
+#include "dynamics/equations.hpp"
 #include "dynamics/scene/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
@@ -60,7 +63,7 @@ TEST(Explanation, CountsTheLiteralProcedureAndTheProgramPerQuantity) {
   for (const auto& quantity : explanation.quantities) {
     EXPECT_LT(10 * quantity.run.flops(), quantity.literal.flops()) << name_of(quantity.purpose);
     EXPECT_LE(quantity.run.sincos, 3u) << name_of(quantity.purpose);
-    EXPECT_TRUE(quantity.compiled) << name_of(quantity.purpose);
+    EXPECT_EQ(quantity.evaluation, Evaluation::machine_code) << name_of(quantity.purpose);
   }
   EXPECT_EQ(explanation.quantities[0].tracing, Tracing::harmonic);
   EXPECT_GT(explanation.quantities[0].set_up.flops(), 0u);  // the payload's share
@@ -69,11 +72,57 @@ TEST(Explanation, CountsTheLiteralProcedureAndTheProgramPerQuantity) {
 TEST(Explanation, SaysHowALongChainIsTracedAndRun) {
   const Explanation explanation = explain(scene_of(oracle::serial_chain(12)));
   EXPECT_EQ(explanation.quantities[0].tracing, Tracing::articulated);
-  EXPECT_TRUE(explanation.quantities[0].compiled);
+  EXPECT_EQ(explanation.quantities[0].evaluation, Evaluation::machine_code);
   EXPECT_TRUE(says(explanation.reasons, "by articulated bodies"));
   const auto& linearisation = explanation.quantities[static_cast<std::size_t>(Purpose::linearisation)];
-  EXPECT_EQ(linearisation.compiled, !says(explanation.reasons, "linearisation takes more than"));
-  EXPECT_FALSE(linearisation.compiled);
+  EXPECT_TRUE(says(explanation.reasons, "linearisation takes more than"));
+  EXPECT_EQ(linearisation.evaluation, Evaluation::interpreter);
+}
+
+TEST(Explanation, SaysThatNothingIsCompiledWithoutACompiler) {
+  ::setenv("MIXLOOP_CXX", "", 1);
+  const Explanation explanation = explain(robot_with(kGravity, kGravity));
+  ::unsetenv("MIXLOOP_CXX");
+  for (const auto& quantity : explanation.quantities)
+    EXPECT_EQ(quantity.evaluation, Evaluation::interpreter) << name_of(quantity.purpose);
+  EXPECT_TRUE(says(explanation.reasons, "Here all programs are interpreted: no C++ compiler"));
+}
+
+// As many transforms as a scene may have, all turned by one motor: each moves all those after it.
+TEST(Explanation, OfTheLongestChainOfOneMotorGrowsWithItsLength) {
+  const auto count = [](int links) {
+    const auto explanation = explain(scene_of(oracle::coiled_chain(links)));
+    for (const auto& quantity : explanation.quantities)
+      EXPECT_TRUE(quantity.evaluation && quantity.evaluation != Evaluation::reference)
+          << name_of(quantity.purpose);
+    return explanation.quantities[0].run.flops();
+  };
+  const std::size_t half = count(500), whole = count(1000);
+  EXPECT_LT(whole, 2.05 * static_cast<double>(half));
+}
+
+TEST(Explanation, OfWhatIsTooLongToTraceSaysThatItIsEvaluatedAsWritten) {
+  const Explanation explanation = explain(scene_of(oracle::coiled_chain(450, 64)));
+  const auto& matrix = explanation.quantities[static_cast<std::size_t>(Purpose::mass_matrix)];
+  EXPECT_EQ(matrix.evaluation, Evaluation::reference);
+  EXPECT_EQ(matrix.run.flops(), matrix.literal.flops());
+  EXPECT_TRUE(says(explanation.reasons, "mass_matrix takes more than 1048576 operations: evaluated as"));
+  const auto& bias = explanation.quantities[static_cast<std::size_t>(Purpose::bias)];
+  EXPECT_EQ(bias.evaluation, Evaluation::interpreter);
+}
+
+TEST(Equations, ThatAreTooLongToTraceAreEvaluatedAsWritten) {
+  const auto scene = scene_of(oracle::coiled_chain(450, 64));
+  const std::vector<double> psi(64, 0.5), psid(64, 0.25);
+  Equations::Workspace reference(equations_of(scene, Evaluation::reference, {Purpose::mass_matrix}), {});
+  std::vector<double> expected = reference.outputs(Purpose::mass_matrix), found = expected;
+  EXPECT_EQ(reference.evaluate(Purpose::mass_matrix, {psi, psid, {}}, expected), Status::ok);
+  for (Evaluation how : {Evaluation::machine_code, Evaluation::interpreter}) {
+    Equations::Workspace dynamics(equations_of(scene, how, {Purpose::mass_matrix, Purpose::bias}), {});
+    EXPECT_EQ(dynamics.equations().evaluation(), Evaluation::reference);
+    EXPECT_EQ(dynamics.evaluate(Purpose::mass_matrix, {psi, psid, {}}, found), Status::ok);
+    EXPECT_EQ(found, expected);
+  }
 }
 
 }  // namespace

@@ -142,6 +142,15 @@ TEST_F(GraphTest, SubstitutionRewritesWhatDependsOnTheInput) {
   EXPECT_EQ(now, (psi(2) * psi(2) + psi(1)).node());
 }
 
+TEST_F(GraphTest, ThatIsFullTakesNoMoreAndKnowsWhatItHas) {
+  Graph graph(5000);
+  std::vector<NodeId> numbers;
+  EXPECT_THROW(for (int i = 2;; ++i) numbers.push_back(graph.constant(i)), GraphFull);
+  EXPECT_EQ(graph.size(), 5000u);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    ASSERT_EQ(graph.constant(static_cast<double>(i + 2)), numbers[i]) << "equal ones are one";
+}
+
 TEST_F(GraphTest, OnlyWhatTheOutputsNeedIsInAProgram) {
   const Expression used = psi(0) * psi(1);
   (void)(exp(psi(2)) * used);

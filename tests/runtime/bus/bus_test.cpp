@@ -82,18 +82,36 @@ TEST(Bus, KeepsItsDeadline) {
   Bus bus;
   const StopSwitch never;
   bus.subscribe(
-      "A", [](void*, Bytes) {}, nullptr);
+      "A", [](void*, const Received&) {}, nullptr);
   const Instant before = now();
   EXPECT_EQ(bus.wait(before + 3ms, never), Wake::deadline);
   EXPECT_GE(now() - before, 3ms);
   EXPECT_EQ(bus.wait(before, never), Wake::deadline) << "one that is over";
 }
 
+TEST(Bus, WaitsAwakeWhereItIsTold) {
+  Bus bus({.spin = true});
+  StopSwitch stop;
+  Ear ear;
+  bus.subscribe<&Ear::take>("A", &ear);
+  bus.publish("A", as_bytes("heard"));
+  EXPECT_EQ(bus.wait(now() + 5s, stop), Wake::message);
+  EXPECT_EQ(ear.heard, std::vector<std::string>{"heard"});
+  const Instant before = now();
+  EXPECT_EQ(bus.wait(before + 3ms, stop), Wake::deadline);
+  EXPECT_GE(now() - before, 3ms);
+  bus.wait_out(before + 6ms, stop);
+  EXPECT_GE(now() - before, 6ms);
+  std::thread turner([&] { stop.turn(); });
+  EXPECT_EQ(bus.wait(now() + 10s, stop), Wake::stop);
+  turner.join();
+}
+
 TEST(Bus, WakesWhenTheSwitchIsTurned) {
   Bus bus;
   StopSwitch stop;
   bus.subscribe(
-      "A", [](void*, Bytes) {}, nullptr);
+      "A", [](void*, const Received&) {}, nullptr);
   std::thread turner([&] {
     std::this_thread::sleep_for(10ms);
     stop.turn();

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <lcm/eventlog.h>
 
+#include <fstream>
 #include <random>
 
 #include "tests/support/bad_input.hpp"
@@ -70,6 +71,21 @@ TEST(LogReader, GivesEveryEventThatLcmWrote) {
   EXPECT_EQ(all_of(log), events);
   EXPECT_EQ(log.position(), log.size());
   EXPECT_THAT(log.damage(), IsEmpty());
+}
+
+// The bytes are there, as holes of the file: what is claimed could be had.
+TEST(LogReader, TakesNoMemoryForAnEventThatClaimsMoreThanOneMayHave) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("log");
+  std::ofstream(file) << std::string("\xED\xA1\xDA\x01", 4) << std::string(16, '\0')
+                      << std::string("\0\0\0\x01\x12\0\0\0X", 9);  // a channel, X, and 0x12000000 bytes
+  write_log(folder.file("whole"), {{7, "Y", "data"}});
+  std::filesystem::resize_file(file, 0x12000000 + 29);
+  std::ofstream(file, std::ios::app | std::ios::binary) << bytes_of(folder.file("whole"));
+  LogReader log(file);
+  EXPECT_EQ(all_of(log), (std::vector<Logged>{{7, "Y", "data"}}));
+  EXPECT_THAT(log.damage(),
+              HasSubstr("the event at byte 0 claims 301989888 bytes of data, more than the 268435456"));
 }
 
 TEST(LogReader, GivesEventsLongerThanItsBlock) {

@@ -169,7 +169,7 @@ TEST(Rejects, AreCountedByCause) {
     EXPECT_EQ(rejects.total(), i + 1);
     EXPECT_EQ(rejects.of(kRejects[i].cause), 1U);
   }
-  EXPECT_EQ(kRejects.back().cause, Reject::stale);
+  EXPECT_EQ(kRejects.back().cause, Reject::sender);
 }
 
 // Old logs and strangers' programs go by them; a package's name is no part of them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/protocol/conductor.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -56,6 +57,8 @@ TEST(Conductor, HasNoSpeedThatNoClockCanKeep) {
   EXPECT_EQ(told(real_time, sim_control_t::ACTION_SPEED, 0, 0), Reject::tick);
   EXPECT_EQ(told(lockstep, sim_control_t::ACTION_SPEED, 0, 1e-300), Reject::tick);
   EXPECT_EQ(real_time.new_speed(), std::nullopt);
+  EXPECT_THAT(real_time.objection(), testing::HasSubstr("there is no 'max'"));
+  EXPECT_THAT(lockstep.objection(), testing::HasSubstr("expected 1e-6 or more"));
 }
 
 TEST(Conductor, DropsWhatIsNotForIt) {

@@ -127,8 +127,9 @@ TEST_F(Plant, TakesOnlyTheCommandThatAnswersItsTick) {
   script_.send("COMMAND", command(1, 2));
   EXPECT_EQ(plant_->ending(), Ending::finished);
   EXPECT_EQ(side_.applied, (std::vector<double>{1, 2}));
-  EXPECT_EQ(to_string(plant_->peer.report().rejects),
-            "1 length, 1 fingerprint, 1 dimension, 1 not_finite, 1 session, 1 config, 1 tick, 2 stale");
+  EXPECT_EQ(
+      to_string(plant_->peer.report().rejects),
+      "1 length, 1 fingerprint, 1 dimension, 1 not_finite, 1 session, 1 config, 1 tick, 1 stale, 1 sender");
 }
 
 TEST_F(Plant, RefusesAControllerThatWasStartedWithSomethingElseByName) {

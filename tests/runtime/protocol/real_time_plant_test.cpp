@@ -150,7 +150,7 @@ TEST_F(RealTime, TakesALateCommandUnlessANewerOneCameOrItIsTooOld) {
   state(3);
   send_command(1, 30);  // older than what is in effect
   send_command(3, 40);
-  send_command(3, 50);  // doubled
+  send_command(3, 40);  // doubled
   send_command(9, 60);  // of a tick to come
   state(12);
   send_command(4, 70);  // 8 ticks late, 5 are forgiven

@@ -31,7 +31,7 @@ class ScriptedPeer {
     }
     if (heard_.empty())
       bus.subscribe(
-          bus.channel("NOTHING"), [](void*, Bytes) {}, nullptr);
+          bus.channel("NOTHING"), [](void*, const Received&) {}, nullptr);
   }
 
   template <class Message>

@@ -97,7 +97,7 @@ std::int64_t total(const Counts& counts) {
 /// What the plant says that it has dropped.
 Counts counted(const timing_t& t) {
   Counts counts;
-  for (const RejectRow& row : kRejects) counts[std::string(row.name)] = t.*row.timed;
+  for (const RejectRow& row : kRejects) counts[std::string(row.name)] = timed(t, row);
   return counts;
 }
 
