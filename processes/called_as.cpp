@@ -54,13 +54,14 @@ std::string shared_file(const std::string& name) { return own_folder() + "/../sh
 
 std::string as_called(const std::string& text) {
   static const std::regex command("\\bmixloop(?= [a-z]+\\b)");
-  static const std::regex shipped("\\b(experiments|scenes)/(\\w+|\\*)\\.yaml\\b");
+  static const std::regex shipped("\\b(experiments|scenes|docs)/((\\w+|\\*)\\.(yaml|md))\\b");
   const auto calls = replaced(text, command, [](const auto&) { return own_call(); });
   return replaced(calls, shipped, [](const std::smatch& match) {
     std::error_code failed;
-    const fs::path installed = fs::weakly_canonical(shared_file(match[1]), failed);
+    const std::string folder = match[1] == "docs" ? "../doc/mixloop/docs" : match[1].str();
+    const fs::path installed = fs::weakly_canonical(shared_file(folder), failed);
     const bool here = fs::exists(match[1].str(), failed), there = fs::exists(installed, failed);
-    return here || !there ? match[0].str() : (installed / (match[2].str() + ".yaml")).string();
+    return here || !there ? match[0].str() : (installed / match[2].str()).string();
   });
 }
 

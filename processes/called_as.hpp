@@ -12,7 +12,7 @@ std::string own_folder();
 std::string shared_file(const std::string& name);
 
 /// A text for the person who called us, whose commands work from where they stand: `mixloop COMMAND` by its
-/// path where PATH finds no mixloop or another one, `experiments/FILE.yaml` and `scenes/FILE.yaml` where they
+/// path where PATH finds no mixloop or another one, files of `experiments/`, `scenes/` and `docs/` where they
 /// are installed unless there is such a file here.
 std::string as_called(const std::string& text);
 

@@ -46,5 +46,22 @@ TEST(AsCalled, HelpNamesOurCommandsByWhatTheShellFinds) {
   EXPECT_THAT(near.out(), HasSubstr("  mixloop netns mixloop run experiments/paper.yaml"));
 }
 
+// Away from a clone the files are those that are installed beside the command.
+TEST(AsCalled, HelpNamesInstalledFilesWhereThereAreNoOthers) {
+  const ScratchFolder folder;
+  const std::string usr = folder.file("usr");
+  std::filesystem::create_directories(usr + "/bin");
+  std::filesystem::create_directories(usr + "/share/mixloop");
+  std::filesystem::create_directory_symlink(MIXLOOP_SOURCE "/experiments",
+                                            usr + "/share/mixloop/experiments");
+  std::filesystem::copy(bin("mixloop"), usr + "/bin/mixloop");
+  Command command({"/bin/sh", "-c", "cd / && exec mixloop simulate --help"},
+                  {"PATH=" + usr + "/bin:/usr/bin:/bin"});
+  ASSERT_EQ(command.wait(), 0) << command.err();
+  EXPECT_THAT(command.out(), HasSubstr("  mixloop simulate " +
+                                       std::filesystem::canonical(MIXLOOP_SOURCE "/experiments").string() +
+                                       "/paper.yaml\n"));
+}
+
 }  // namespace
 }  // namespace mixloop

@@ -16,13 +16,13 @@ if [ -n "$named" ]; then
   exit 1
 fi
 
-cmake -S "$source/examples/library" -B "$scratch/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/usr" >/dev/null
+cmake -G Ninja -S "$source/examples/library" -B "$scratch/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/usr" >/dev/null
 cmake --build "$scratch/build" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 ctest --test-dir "$scratch/build" --output-on-failure
 
 # The suite of experiments, as tests of CTest and, where there is pytest, of that.
 suite=$scratch/usr/share/mixloop/examples/suite
-cmake -S "$suite" -B "$scratch/suite" -DCMAKE_PREFIX_PATH="$scratch/usr" >/dev/null
+cmake -G Ninja -S "$suite" -B "$scratch/suite" -DCMAKE_PREFIX_PATH="$scratch/usr" >/dev/null
 ctest --test-dir "$scratch/suite" --output-on-failure
 if python3 -c 'import pytest' 2>/dev/null; then
   MIXLOOP=$scratch/usr/bin/mixloop python3 -m pytest -q -p no:cacheprovider "$suite"

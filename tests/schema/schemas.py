@@ -181,6 +181,7 @@ def pages_name_the_keys(source, known, wrong):
 
 
 def main(source, mixloop):
+    source = os.path.realpath(source)
     wrong, known, tried = [], {}, 0
     for kind, names in (("scene", ["scene.yaml"]), ("experiment", ["experiment.yaml", "line.yaml"])):
         schema = schema_of(mixloop, kind)
