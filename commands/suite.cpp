@@ -6,12 +6,13 @@
 #include <map>
 
 #include "loop/cases.hpp"
+#include "notation/utf8.hpp"
 
 namespace mixloop {
 namespace {
 
 void add_runs(const std::string& file, std::vector<SuiteRun>& runs) {
-  const std::string stem = std::filesystem::path(file).stem().string();
+  const std::string stem = printable_name(std::filesystem::path(file).stem().string());
   try {
     const auto cases = cases_of(file);
     for (const Case& one : cases) runs.push_back({name_with_case(stem, one.name), file, one.sets, {}});
@@ -40,7 +41,7 @@ std::vector<SuiteRun> suite_of(const std::vector<std::string>& files) {
   for (const auto& file : files) add_runs(file, runs);
   tell_apart(runs, [](const SuiteRun& run, int) {
     const auto folder = std::filesystem::path(run.file).parent_path();
-    return (folder / run.name).generic_string();
+    return printable_name((folder / run.name).generic_string());
   });
   tell_apart(runs, [](const SuiteRun& run, int before) {
     return before == 0 ? run.name : run.name + " #" + std::to_string(before + 1);

@@ -11,7 +11,7 @@ namespace mixloop {
 
 /// One run of a suite: an experiment, or a case of one.
 struct SuiteRun {
-  std::string name;  ///< unlike any other's
+  std::string name;  ///< unlike any other's, as it can be shown
   std::string file;
   std::vector<std::string> sets;       ///< of the case
   std::optional<InputError> unusable;  ///< why the file's cases can't be told

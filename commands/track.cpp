@@ -17,7 +17,6 @@
 #include "commands/suite.hpp"
 #include "notation/long_work.hpp"
 #include "notation/number_text.hpp"
-#include "notation/utf8.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
@@ -92,7 +91,7 @@ Result tracked(const SuiteRun& run, const TrackLine& options, const StopSwitch& 
 Result tracked_or_error(const SuiteRun& run, const TrackLine& options, const StopSwitch& stop) {
   const auto error = [&](const std::string& code, const std::string& message, const Place& place,
                          int status) -> Result {
-    return {.experiment = printable_name(run.name),
+    return {.experiment = run.name,
             .judged = {.verdict = status == kInterrupted ? Verdict::interrupted : Verdict::fault,
                        .exit_status = status},
             .error = {{.code = code, .message = message, .where = to_string(place)}}};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include "notation/errors.hpp"
@@ -97,7 +98,9 @@ bool Bus::Connection::handle(const Received& message) const {
 }
 
 Bus::Bus(BusOptions options)
-    : options_(std::move(options)), connection_(std::make_unique<Connection>(options_.url)) {}
+    : options_(std::move(options)),
+      connection_(std::make_unique<Connection>(options_.url)),
+      has_cores_(std::thread::hardware_concurrency() > 1) {}
 
 Bus::~Bus() = default;
 
@@ -132,6 +135,30 @@ bool Bus::take() {
   return message != nullptr && connection_->handle(*message);
 }
 
+void Bus::expect_answer() {
+  if (!has_cores_ || options_.spin) return;
+  if (luck_ < 0 && ++luck_ < 0) return;
+  awake_until_ = now() + kMoment;
+}
+
+/// Nothing where none came in that moment.
+std::optional<Wake> Bus::wait_for_answer(Instant deadline, const StopSwitch& stop) {
+  for (;;) {
+    if (stop.turned()) return Wake::stop;
+    if (take()) {
+      luck_ = std::min(luck_ + 1, kMostLuck);
+      return Wake::message;
+    }
+    const Instant at = now();
+    if (at >= deadline) return Wake::deadline;
+    if (at >= *awake_until_) break;
+    breathe();
+  }
+  awake_until_.reset();
+  if (--luck_ <= 0) luck_ = kNoLuck;
+  return std::nullopt;
+}
+
 Wake Bus::wait_awake(Instant deadline, const StopSwitch& stop) {
   for (;;) {
     if (stop.turned()) return Wake::stop;
@@ -148,6 +175,8 @@ void Bus::wait_out(Instant due, const StopSwitch& stop) const {
 
 Wake Bus::wait(Instant deadline, const StopSwitch& stop) {
   if (options_.spin) return wait_awake(deadline, stop);
+  if (awake_until_)
+    if (const auto wake = wait_for_answer(deadline, stop)) return *wake;
   pollfd fds[] = {{.fd = connection_->fd(), .events = POLLIN, .revents = 0},
                   {.fd = stop.fd(), .events = POLLIN, .revents = 0}};
   for (;;) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -54,6 +55,12 @@ class Bus {
   /// many waited), or as no message.
   std::uint64_t dropped() const;
 
+  /// What was just sent has an answer that is likely to be there in a moment: waits stay awake for so long,
+  /// where there is a core for who answers. A core that goes to sleep is woken in as much time; where answers
+  /// turn out to take longer, it is only tried now and then.
+  void expect_answer();
+  static constexpr nanoseconds kMoment = std::chrono::microseconds(50);
+
   /// Calls `handler(context, message)`, from wait(), for every message on the channel. The handler must not
   /// throw.
   using Handler = void (*)(void* context, const Received& message);
@@ -88,11 +95,16 @@ class Bus {
   struct Connection;
 
   Wake wait_awake(Instant deadline, const StopSwitch& stop);
+  std::optional<Wake> wait_for_answer(Instant deadline, const StopSwitch& stop);
   bool take();
 
   BusOptions options_;
   std::unique_ptr<Connection> connection_;
   std::uint64_t failed_sends_ = 0;
+  bool has_cores_;
+  std::optional<Instant> awake_until_;  ///< an answer is expected
+  int luck_ = kMostLuck;                ///< with the latest ones
+  static constexpr int kMostLuck = 16, kNoLuck = -64;
 };
 
 }  // namespace mixloop

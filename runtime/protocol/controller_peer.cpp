@@ -97,6 +97,7 @@ void ControllerPeer::answer(const reference_t& reference) {
   set_header(message, link_.answer_header(tick, state.utime));
   message.flags = flags | (link_.report.joined_late ? command_t::FLAG_JOINED_LATE : 0);
   bus_.publish(command_channel_, command_.encode());
+  if (!in_real_time()) bus_.expect_answer();  // the next STATE
   answered_ = tick;
   ++link_.report.answered;
 }

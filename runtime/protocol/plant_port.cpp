@@ -73,6 +73,7 @@ bool PlantPort::publish_state(std::int64_t tick, std::int32_t flags) {
   sent_ = now();
   dropped_.forget();
   bus_.publish(state_channel_, state_.encode());
+  bus_.expect_answer();
   return true;
 }
 
