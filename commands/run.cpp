@@ -38,11 +38,14 @@ int run(RunLine& options) {
     const double speed = speed_of(launch.speed);
     if (launch.real_time) require_real_time_speed(speed);
   }
-  if (const auto cores = std::thread::hardware_concurrency(); launch.spin && cores < 3)
-    fmt::print(
-        stderr,
-        "mixloop: --spin keeps two cores busy, and there are {}: who waits awake takes the others' time\n",
-        cores);
+  if (const auto cores = std::thread::hardware_concurrency(); launch.spin && cores < 3) {
+    const std::string why = fmt::format(
+        "it keeps two cores busy, and there are {}: who waits awake takes the others' time", cores);
+    if (launch.real_time)
+      throw InputError("out_of_range", {"--spin"},
+                       why + ", in real time all of it; expected three cores or more, or no --spin");
+    fmt::print(stderr, "mixloop: --spin: {}\n", why);
+  }
   Experiment experiment = load_experiment(std::filesystem::path(launch.experiment), options.overrides());
   experiment.evaluation = launch.evaluation;
   experiment.name = name_with_case(experiment.name, options.case_name);
