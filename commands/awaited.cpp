@@ -83,7 +83,9 @@ bool Awaited::look() {
   const auto all_there = [&] {
     return std::all_of(ears_.begin(), ears_.end(), [](const Ear& ear) { return ear.heard; });
   };
-  while (!all_there() && bus_.wait(now(), kNever) == Wake::message) {
+  // However much comes, the processes are looked after too.
+  for (const Instant end = now() + 10ms;
+       !all_there() && now() < end && bus_.wait(now(), kNever) == Wake::message;) {
   }
   if (all_there()) {
     progress_.clear();

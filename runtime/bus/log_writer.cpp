@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <map>
 #include <thread>
 
@@ -36,24 +37,33 @@ struct LogWriter::Recording {
   }
 
   void finish() {
-    over = true;
+    if (last_us == 0) last_us = realtime_us() + kUnderWay;
     if (hearing.joinable()) hearing.join();
     if (writing.joinable()) writing.join();
   }
 
+  /// Until all is heard that the kernel received in time, whatever comes after it.
   void hear_all() {
-    while (!over) hear(50);
-    while (hear(20)) {
+    while (hear()) {
+      pollfd fd{receiver.fd(), POLLIN, 0};
+      poll(&fd, 1, last_us == 0 ? 50 : 1);
     }
     backlog.close();
   }
 
-  bool hear(int timeout_ms) {
-    pollfd fd{receiver.fd(), POLLIN, 0};
-    if (poll(&fd, 1, timeout_ms) <= 0) return false;
-    while (const Received* message = receiver.next())
+  /// Takes what waits; false once it is over.
+  bool hear() {
+    while (const Received* message = receiver.next()) {
+      if (last_us != 0 && message->at_us > last_us) return false;
       if (message->channel.starts_with(prefix)) backlog.push(*message);
-    return true;
+    }
+    return last_us == 0 || realtime_us() <= last_us;
+  }
+
+  static std::int64_t realtime_us() {
+    timespec at{};
+    clock_gettime(CLOCK_REALTIME, &at);
+    return at.tv_sec * std::int64_t{1'000'000} + at.tv_nsec / 1000;
   }
 
   void write_all() {
@@ -86,7 +96,8 @@ struct LogWriter::Recording {
   Receiver receiver;
   lcm_eventlog_t* log;
   Backlog backlog;
-  std::atomic<bool> over{false};
+  static constexpr std::int64_t kUnderWay = 20'000;  ///< us that a message may still be on its way
+  std::atomic<std::int64_t> last_us{0};  ///< when the last message is taken, us since 1970; 0: not yet known
   LogSummary summary;
   std::map<std::int64_t, std::int64_t> latest_ticks;  ///< by session
   int failed = 0;  ///< the errno of the first event that could not be written

@@ -111,7 +111,7 @@ Instant ControllerPeer::next_look() const {
 
 void ControllerPeer::attend_to_time() {
   if (at_the_gate()) return answer_if_ready();
-  if (!drained_) return;
+  if (!drained_ && now() - asked_ < ticks(kReferenceWait)) return;  // however much comes
   const std::int64_t tick = link_.latest();
   if (tick <= answered_) {
     if (!silence_answered_ && now() - asked_ >= ticks(options_.max_missed)) {

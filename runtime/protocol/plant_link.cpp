@@ -42,7 +42,9 @@ PlantLink::Event PlantLink::next(Instant until) {
     ending_ = Ending::interrupted;
     return Event::over;
   }
-  if (wake == Wake::message) return judge();
+  // What is not the plant's does not put off that it is missed.
+  if (wake == Wake::message)
+    if (const Event event = judge(); event != Event::other || now() < deadline_) return event;
   return now() < deadline_ ? Event::nothing : silence();
 }
 

@@ -159,6 +159,19 @@ TEST_F(SecondSender, OfAReferenceIsNotTaken) {
   EXPECT_THAT(told_, ElementsAre(HasSubstr("a second sender on MIXLOOP_REFERENCE")));
 }
 
+// What is nobody's puts nothing off.
+TEST_F(SecondSender, OfGarbageDoesNotHideThatThePlantIsLost) {
+  ControllerSide side;
+  side.compute = [](const state_t&, const reference_t&, std::int64_t, std::span<double>) { return 0; };
+  controller_.emplace(PeerOptions{.n = kScriptN, .n_u = kScriptN, .first_wait = 100ms, .patience = 100ms},
+                      std::move(side));
+  const std::vector<std::uint8_t> garbage(50);
+  for (const Instant end = now() + 10s; controller_->running() && now() < end;)
+    stranger_.bus.publish(stranger_.bus.channel("STATE"), garbage);
+  EXPECT_FALSE(controller_->running());
+  EXPECT_THAT(controller_->fault(), HasSubstr("nothing that can be taken on MIXLOOP_STATE for 100 ms"));
+}
+
 struct AppliedSide final : LockstepSide {
   bool measure(std::int64_t, std::span<double>, std::span<double>) override { return false; }
   bool advance(std::int64_t, std::span<const double> tau) override {
