@@ -10,6 +10,9 @@
 namespace mixloop {
 namespace {
 
+/// Of a linearisation that is longer than programs may be: no run needs it.
+constexpr const char* kTooLong = "too_large";
+
 IntegratorSettings steps_of(const PlantSettings& plant) {
   return {plant.integrator, plant.substeps, plant.local_error};
 }
@@ -81,6 +84,18 @@ std::vector<std::string> choice_warnings(const Experiment& experiment, const Rec
                   met.error, choice->asked)};
 }
 
+/// Of states that the run met, where the plan's gave no cause.
+std::vector<std::string> step_warnings(const Experiment& experiment, const Plan& plan,
+                                       const Recorder& record) try {
+  PlantProbe probe = probe_of(experiment);
+  const auto met = doubt(experiment, plan, plants_met(probe, record));
+  if (!met || step_doubt(experiment, plan)) return {};
+  return {met->text + " (a state that the run met)"};
+} catch (const InputError& error) {
+  if (error.code != kTooLong) throw;
+  return {};  // step_doubt has said so
+}
+
 std::vector<std::string> jump_warnings(const Experiment& experiment, const Recorder& record) {
   AngleWatch angles(*experiment.scene, experiment.plant_parameters);
   for (std::int64_t k = 0; angles.needed() && k < record.ticks_recorded(); ++k)
@@ -103,19 +118,19 @@ std::vector<std::string> singular_warnings(const Experiment& experiment, const R
 
 }  // namespace
 
-std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& plan) {
+std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& plan) try {
   PlantProbe probe = probe_of(experiment);
   const auto poses = poses_on_plan(probe, plan, experiment.rate_hz);
   return doubt(experiment, plan, linearised(probe, poses));
+} catch (const InputError& error) {
+  if (error.code != kTooLong) throw;
+  return StepDoubt{"the integrator's steps were not held against the plant's own motions: " + error.message,
+                   false};
 }
 
 std::vector<std::string> review(const Experiment& experiment, const Plan& plan, const Recorder& record) {
   if (record.ticks_recorded() == 0) return {};
-  std::vector<std::string> said;
-  PlantProbe probe = probe_of(experiment);
-  if (const auto met = doubt(experiment, plan, plants_met(probe, record));
-      met && !step_doubt(experiment, plan))
-    said.push_back(met->text + " (a state that the run met)");
+  std::vector<std::string> said = step_warnings(experiment, plan, record);
   if (said.empty()) said = choice_warnings(experiment, record);
   for (auto& more : {jump_warnings(experiment, record), singular_warnings(experiment, record)})
     said.insert(said.end(), more.begin(), more.end());
