@@ -82,6 +82,8 @@ TEST(Interrupted, WhilePlanningTheProcessesEnd) {
 TEST(Interrupted, SimulationKeepsWhatItHas) {
   const ScratchFolder folder;
   Command command(line({"simulate", experiment("paper"), "--json", "--out", folder.file("kept")}, kLongRun));
+  // The folder is begun when the path is planned.
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(folder.file("kept")); })) << command.err();
   EXPECT_EQ(interrupted(command, milliseconds(1500)), 130) << command.err();
   const auto result = command.json();
   EXPECT_EQ(result["verdict"], "interrupted");

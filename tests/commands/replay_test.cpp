@@ -19,9 +19,9 @@ TEST(Replay, GivesALogsCommandsByteForByte) {
     SCOPED_TRACE(how);
     Command run({bin("mixloop"), "run", experiment("paper"), how, "--speed", "1", "--json", "--out",
                  folder.file(how), "--set", "limits.position_error=1 m"});
-    run.wait();
+    const int status = run.wait();
     auto replay = replayed(folder.file(std::string(how) + "/run.lcmlog"));
-    EXPECT_EQ(replay.wait(), 0) << replay.out() << replay.err();
+    EXPECT_EQ(replay.wait(), 0) << replay.out() << replay.err() << status << run.out() << run.err();
     const auto result = replay.json();
     EXPECT_EQ(result["identical"], result["commands"]);
     EXPECT_GT(result["commands"], 100) << "a busy machine misses some in real time";

@@ -179,17 +179,17 @@ TEST_F(RealTime, IsPausedAndSteppedAndGoesOn) {
   start(o);
   state(0);
   send_command(0);
-  std::this_thread::sleep_for(150ms);
+  std::this_thread::sleep_for(300ms);
   EXPECT_EQ(side_.done, 1) << "tick 0 itself is lived through";
   send_control(sim_control_t::ACTION_STEP, 2);
   state(2);
-  std::this_thread::sleep_for(150ms);
+  std::this_thread::sleep_for(300ms);
   EXPECT_EQ(side_.done, 3);
   send_control(sim_control_t::ACTION_RESUME);
   EXPECT_EQ(plant_->ending(), Ending::finished);
   EXPECT_EQ(side_.done, 7);
   EXPECT_EQ(side_.safe, "") << "a pause is no suspension";
-  EXPECT_LT(plant_->peer.report().slipped, 150ms) << "a pause is no slip";
+  EXPECT_LT(plant_->peer.report().slipped, 500ms) << "a pause is no slip: they took 600 ms";
 }
 
 // Its controller's answer to the last tick before a pause was late; what it sends while nobody waits isn't
