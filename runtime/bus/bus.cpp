@@ -141,31 +141,26 @@ void Bus::expect_answer() {
   awake_until_ = now() + kMoment;
 }
 
-/// Nothing where none came in that moment.
-std::optional<Wake> Bus::wait_for_answer(Instant deadline, const StopSwitch& stop) {
-  for (;;) {
-    if (stop.turned()) return Wake::stop;
-    if (take()) {
-      luck_ = std::min(luck_ + 1, kMostLuck);
-      return Wake::message;
-    }
-    const Instant at = now();
-    if (at >= deadline) return Wake::deadline;
-    if (at >= *awake_until_) break;
-    breathe();
-  }
-  awake_until_.reset();
-  if (--luck_ <= 0) luck_ = kNoLuck;
-  return std::nullopt;
-}
-
-Wake Bus::wait_awake(Instant deadline, const StopSwitch& stop) {
+/// Nothing where none came until then.
+std::optional<Wake> Bus::wait_awake(Instant until, Instant deadline, const StopSwitch& stop) {
   for (;;) {
     if (stop.turned()) return Wake::stop;
     if (take()) return Wake::message;
-    if (now() >= deadline) return Wake::deadline;
+    const Instant at = now();
+    if (at >= deadline) return Wake::deadline;
+    if (at >= until) return std::nullopt;
     breathe();
   }
+}
+
+/// Nothing where none came in that moment.
+std::optional<Wake> Bus::wait_for_answer(Instant deadline, const StopSwitch& stop) {
+  const auto wake = wait_awake(*awake_until_, deadline, stop);
+  if (wake == Wake::message) luck_ = std::min(luck_ + 1, kMostLuck);
+  if (wake) return wake;
+  awake_until_.reset();
+  if (--luck_ <= 0) luck_ = kNoLuck;
+  return std::nullopt;
 }
 
 void Bus::wait_out(Instant due, const StopSwitch& stop) const {
@@ -174,7 +169,7 @@ void Bus::wait_out(Instant due, const StopSwitch& stop) const {
 }
 
 Wake Bus::wait(Instant deadline, const StopSwitch& stop) {
-  if (options_.spin) return wait_awake(deadline, stop);
+  if (options_.spin) return *wait_awake(Instant::max(), deadline, stop);
   if (awake_until_)
     if (const auto wake = wait_for_answer(deadline, stop)) return *wake;
   pollfd fds[] = {{.fd = connection_->fd(), .events = POLLIN, .revents = 0},

@@ -94,7 +94,7 @@ class Bus {
  private:
   struct Connection;
 
-  Wake wait_awake(Instant deadline, const StopSwitch& stop);
+  std::optional<Wake> wait_awake(Instant until, Instant deadline, const StopSwitch& stop);
   std::optional<Wake> wait_for_answer(Instant deadline, const StopSwitch& stop);
   bool take();
 

@@ -55,7 +55,7 @@ Ending ControllerPeer::run() {
         break;
     }
     require_planner();
-    tell_rival(planner_.rival(), reference_channel_, options_.notice, rival_told_);
+    planner_.tell(reference_channel_, options_.notice);
     if (in_real_time())
       attend_to_time();
     else
@@ -196,12 +196,13 @@ void ControllerPeer::lost_planner() const {
 }
 
 void ControllerPeer::on_reference(const Received& message) {
-  if (const auto cause = check_reference(message)) {
+  const Instant at = now();
+  if (const auto cause = check_reference(message, at)) {
     link_.report.rejects.count(*cause);
     dropped_.count(*cause, message.data);
     return;
   }
-  planner_.take(message, now());
+  planner_.take(message, at);
   taken_ = header_of(inbox_.message);
   Kept& slot = kept(inbox_.message.seq);
   slot.tick = inbox_.message.seq;
@@ -209,7 +210,7 @@ void ControllerPeer::on_reference(const Received& message) {
 }
 
 /// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
-std::optional<Reject> ControllerPeer::check_reference(const Received& message) {
+std::optional<Reject> ControllerPeer::check_reference(const Received& message, Instant at) {
   const Bytes bytes = message.data;
   if (const auto header = peek(bytes); header && fingerprint(bytes) == reference_t::getHash() &&
                                        link_.check_origin(header->session, header->config) != Reject::session)
@@ -221,7 +222,7 @@ std::optional<Reject> ControllerPeer::check_reference(const Received& message) {
   const bool of_this_session = heard.session == link_.state().session;
   const bool is_newest = heard.session == taken_.session && heard.seq == taken_.seq;
   if (of_this_session && heard.seq <= answered_ && !is_newest) return Reject::stale;
-  if (!planner_.admits(message.sender, now())) {
+  if (!planner_.admits(message.sender, at)) {
     planner_.refuse(message.sender, heard.seq);
     return Reject::sender;
   }

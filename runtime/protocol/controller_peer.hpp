@@ -76,7 +76,7 @@ class ControllerPeer {
   void require_planner() const;
   [[noreturn]] void lost_planner() const;
   void on_reference(const Received& message);
-  std::optional<Reject> check_reference(const Received& message);
+  std::optional<Reject> check_reference(const Received& message, Instant at);
 
   Bus& bus_;
   PeerOptions options_;
@@ -94,8 +94,7 @@ class ControllerPeer {
   bool silence_answered_ = false;
   ConfigAgreement planner_agreement_;
   SoleSender planner_;
-  Header taken_;  ///< of the REFERENCE taken last
-  bool rival_told_ = false;
+  Header taken_;     ///< of the REFERENCE taken last
   Dropped dropped_;  ///< REFERENCEs since the latest state came
 };
 

@@ -37,7 +37,7 @@ PlantLink::Event PlantLink::next(Instant until) {
   heard_ = Event::other;
   const Wake wake = bus_.wait(std::min(deadline_, until), stop_);
   report.failed_sends = bus_.failed_sends();
-  tell_rival(session_.plant().rival(), state_channel_, options_.notice, rival_told_);
+  session_.plant().tell(state_channel_, options_.notice);
   if (wake == Wake::stop) {
     ending_ = Ending::interrupted;
     return Event::over;
@@ -97,13 +97,13 @@ std::optional<Reject> PlantLink::check_origin(std::int64_t session, std::int64_t
 }
 
 void PlantLink::on_state(const Received& message) {
-  if (const auto cause = check_state(message)) {
+  const Instant at = now();
+  if (const auto cause = check_state(message, at)) {
     report.rejects.count(*cause);
     dropped_.count(*cause, message.data);
     return;
   }
   const state_t& heard = inbox_.message;
-  const Instant at = now();
   deadline_ = at + options_.patience;
   dropped_.forget();
   const bool first = session_.follow(heard.session, message, at);
@@ -120,9 +120,8 @@ void PlantLink::on_state(const Received& message) {
 }
 
 /// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
-std::optional<Reject> PlantLink::check_state(const Received& message) {
+std::optional<Reject> PlantLink::check_state(const Received& message, Instant at) {
   const Bytes bytes = message.data;
-  const Instant at = now();
   const auto header = peek(bytes);
   const bool ours =
       header && fingerprint(bytes) == state_t::getHash() && session_.would_follow(header->session, at);

@@ -84,7 +84,7 @@ class PlantLink {
   Event silence();
   Event judge();
   [[noreturn]] void refuse_config() const;
-  std::optional<Reject> check_state(const Received& message);
+  std::optional<Reject> check_state(const Received& message, Instant at);
   void on_state(const Received& message);
   void on_control(const Received& message);
   void on_stop(Bytes) { stop_heard_ = true; }
@@ -103,7 +103,7 @@ class PlantLink {
   bool first_of_session_ = false;
   ConfigAgreement agreement_;
   Dropped dropped_;  ///< STATEs since the last that was taken
-  bool end_heard_ = false, stop_heard_ = false, rival_told_ = false;
+  bool end_heard_ = false, stop_heard_ = false;
   Ending ending_ = Ending::finished;
 };
 

@@ -156,7 +156,7 @@ PlantPort::Answer PlantPort::wait_until(Instant due) {
     if (std::exchange(command_heard_, false)) return Answer::command;
     const Wake wake = bus_.wait(due, stop_);
     report.rival = controller_.rival();
-    tell_rival(report.rival, command_channel_, options_.notice, rival_told_);
+    controller_.tell(command_channel_, options_.notice);
     if (const Answer answer = asked(); answer != Answer::due) return answer;
     require_agreement();
     if (!command_heard_ && (wake == Wake::deadline || now() >= due)) return Answer::due;
@@ -257,12 +257,13 @@ void PlantPort::lost_peer(nanoseconds waited) const {
 }
 
 void PlantPort::on_command(const Received& message) {
-  if (const auto cause = check_command(message)) {
+  const Instant at = now();
+  if (const auto cause = check_command(message, at)) {
     report.rejects.count(*cause);
     dropped_.count(*cause, message.data);
     return;
   }
-  controller_.take(message, now());
+  controller_.take(message, at);
   taken_.reset();
   if (!is_safe(inbox_.message)) taken_ = inbox_.message.seq;
   command_heard_ = true;
@@ -270,7 +271,7 @@ void PlantPort::on_command(const Received& message) {
 }
 
 /// Also of a message that is dropped it is heard what its sender was started with: n goes with the mechanism.
-std::optional<Reject> PlantPort::check_command(const Received& message) {
+std::optional<Reject> PlantPort::check_command(const Received& message, Instant at) {
   const Bytes bytes = message.data;
   // Another answer must not overwrite one that waits to be applied.
   if (command_heard_) return Reject::stale;
@@ -283,7 +284,7 @@ std::optional<Reject> PlantPort::check_command(const Received& message) {
   if (command.config != options_.config) return Reject::config;
   if (command.seq > tick_) return Reject::tick;
   if (command.seq < oldest_ && command.seq != taken_) return Reject::stale;
-  if (!controller_.admits(message.sender, now())) {
+  if (!controller_.admits(message.sender, at)) {
     controller_.refuse(message.sender, command.seq);
     return Reject::sender;
   }

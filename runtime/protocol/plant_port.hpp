@@ -73,7 +73,7 @@ class PlantPort {
   void stop_listening();
   void require_agreement() const;
   [[noreturn]] void refuse_config() const;
-  std::optional<Reject> check_command(const Received& message);
+  std::optional<Reject> check_command(const Received& message, Instant at);
   [[noreturn]] void lost_peer(nanoseconds waited) const;
 
   void on_command(const Received& message);
@@ -110,7 +110,7 @@ class PlantPort {
   Dropped dropped_;  // COMMANDs since the latest STATE was first sent
   SoleSender controller_;
   std::optional<std::int64_t> taken_;  // tick of the command taken last, but for a safe one
-  bool rival_told_ = false, speed_told_ = false;
+  bool speed_told_ = false;
   DeadlineCounts deadlines_;
 };
 

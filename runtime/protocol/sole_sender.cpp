@@ -20,11 +20,10 @@ std::string describe(const Rival& rival, const std::string& channel) {
       channel, rival.messages, to_string(rival.refused), rival.tick, to_string(rival.taken));
 }
 
-void tell_rival(const Rival& rival, const std::string& channel,
-                const std::function<void(const std::string&)>& notice, bool& told) {
-  if (told || !rival.proved) return;
-  told = true;
-  if (notice) notice(describe(rival, channel));
+void SoleSender::tell(const std::string& channel, const std::function<void(const std::string&)>& notice) {
+  if (told_ || !rival_.proved) return;
+  told_ = true;
+  if (notice) notice(describe(rival_, channel));
 }
 
 void SoleSender::take(const Received& message, Instant at) {

@@ -23,10 +23,6 @@ struct Rival {
 /// As "a second sender on MIXLOOP_COMMAND: ..."; empty where none is proved.
 std::string describe(const Rival& rival, const std::string& channel);
 
-/// Says it to `notice`, where there is something to say and `told` says that it hasn't been said.
-void tell_rival(const Rival& rival, const std::string& channel,
-                const std::function<void(const std::string&)>& notice, bool& told);
-
 /// Of messages that one process of a session sends: whose are taken. The first that is heard, until it has
 /// been silent for a second: a process that is started again has another port. What others send, or another
 /// message of a tick that was taken, is left alone and counted. Allocates only at the first message.
@@ -46,20 +42,21 @@ class SoleSender {
   void refuse(Endpoint sender, std::int64_t tick);
   /// Whether these are not the bytes that were taken last, though they should be: then it is left alone.
   bool contradicts(const Received& message, std::int64_t tick);
-  /// Who comes next may be anybody.
-  void forget() { sender_.reset(), heard_.reset(); }
   /// The same sender, of which nothing is heard yet.
   void begin_again() { heard_.reset(); }
 
   bool heard() const { return heard_.has_value(); }
   std::optional<Endpoint> sender() const { return sender_; }
   const Rival& rival() const { return rival_; }
+  /// Says to `notice`, once, that there is a rival. Cheap while there is nothing to say.
+  void tell(const std::string& channel, const std::function<void(const std::string&)>& notice);
 
  private:
   std::optional<Endpoint> sender_;
   std::optional<Instant> heard_;
   std::vector<std::uint8_t> last_;
   Rival rival_;
+  bool told_ = false;
 };
 
 }  // namespace mixloop
