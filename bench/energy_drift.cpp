@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "bench/machine.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "integrators/integrator.hpp"
 #include "loop/experiment.hpp"
 

@@ -13,7 +13,7 @@
 #include "dynamics/program/machine_code.hpp"
 #include "dynamics/program/reference.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 

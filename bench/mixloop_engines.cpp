@@ -11,7 +11,7 @@
 #include "dynamics/program/shared_object.hpp"
 #include "dynamics/program/source.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 
 namespace mixloop::bench {

@@ -13,7 +13,7 @@
 
 #include "bench/machine.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "loop/simulate.hpp"
 
 namespace mixloop::bench {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bench/work_precision.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 
 namespace mixloop::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "commands/commands.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/program/firmware.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "loop/output_file.hpp"
 #include "loop/result.hpp"
 #include "notation/long_work.hpp"

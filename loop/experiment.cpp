@@ -8,7 +8,7 @@
 
 #include "controller/controller_keys.hpp"
 #include "dynamics/procedure/singular_mass.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "loop/base.hpp"
 #include "loop/experiment_keys.hpp"
 #include "notation/formula.hpp"

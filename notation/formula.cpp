@@ -90,6 +90,7 @@ std::vector<std::string> names_in(std::string_view text) {
 }
 
 int degree(const Formula& formula, const std::function<bool(int)>& chosen) {
+  if (formula.nodes.empty()) return 0;
   std::vector<int> degrees;
   degrees.reserve(formula.nodes.size());
   for (const auto& node : formula.nodes) {

@@ -97,7 +97,7 @@ void require_dimension(const Formula& formula, const Dimension& wanted, const st
 /// The names in `text` that look like symbols: how definitions are put in order before they are read.
 std::vector<std::string> names_in(std::string_view text);
 
-/// 0: independent of the chosen symbols; 1: affine in them; 2: neither.
+/// 0: independent of the chosen symbols, as one without nodes is; 1: affine in them; 2: neither.
 int degree(const Formula& formula, const std::function<bool(int symbol)>& chosen);
 inline bool depends_on(const Formula& formula, const std::function<bool(int symbol)>& chosen) {
   return degree(formula, chosen) > 0;

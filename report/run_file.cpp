@@ -8,7 +8,7 @@
 #include <fstream>
 #include <set>
 
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "loop/arrivals_file.hpp"
 #include "loop/inputs.hpp"
 #include "notation/sha256.hpp"

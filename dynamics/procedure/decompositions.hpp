@@ -12,6 +12,19 @@ namespace mixloop {
 /// A^-1 B, A n x n, by LU with partial pivoting; not finite where A is singular.
 Matrix solved(const Matrix& A, const Matrix& B);
 
+/// A = U diag(s) V^T, s descending, for any A (thin: as many columns as the shorter side).
+struct SingularValues {
+  Matrix U, V;
+  Vector s;
+
+  /// How many are above 1e-9 of the largest.
+  int rank() const;
+  /// The x of least length that A x misses b least with; values below `cut` of the largest count as none,
+  /// others as (s^2 + damping^2) / s.
+  Vector solve(const Vector& b, double cut, double damping) const;
+};
+SingularValues singular_values(const Matrix& A);
+
 /// The eigenvalues of a real n x n matrix, by its real Schur form.
 Vec<std::complex<double>> eigenvalues(const Matrix& A);
 

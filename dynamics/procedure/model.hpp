@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -10,6 +11,13 @@
 #include "dynamics/scene/scene.hpp"
 
 namespace mixloop {
+
+/// How the axis of a link stands to that of the one before, as far as its constant alpha says so.
+enum class Twist : std::uint8_t {
+  none,  ///< the same
+  half,  ///< against it
+  other
+};
 
 /// A scene with its numbers worked out, for given parameter values, on the scalar T. Constant once made.
 template <class T>
@@ -23,6 +31,7 @@ struct Model {
     T theta{0}, s{0}, a{0};        ///< of the varying one, the offset
     T cos_theta{1}, sin_theta{0};  ///< where theta doesn't vary
     T cos_alpha{1}, sin_alpha{0};
+    Twist twist = Twist::other;
     std::vector<int> path;  ///< coordinates that move this frame, ascending
   };
   struct Body {
@@ -39,6 +48,10 @@ struct Model {
     int coordinate = 0;
     T stiffness{0}, rest{0}, damping{0};
   };
+  struct Closure {
+    std::array<Vec3<T>, 2> vectors;  ///< points, or axes of length 1
+    std::array<Vec3<T>, 2> across;   ///< of parallel: perpendicular to the first axis and to each other
+  };
 
   std::shared_ptr<const Scene> scene;
   std::vector<T> parameters;
@@ -46,6 +59,7 @@ struct Model {
   std::vector<Body> bodies;
   std::vector<Load> loads;
   std::vector<CoordinateLoad> coordinate_loads;
+  std::vector<Closure> closures;
   Vec3<T> gravity;
   Vec3<T> end_effector_point;
 
@@ -77,6 +91,33 @@ void constant_cos_sin(double angle, T& cosine, T& sine) {
   }
   cosine = cos(T(angle));
   sine = sin(T(angle));
+}
+
+inline Twist twist_of(double alpha) {
+  double cosine = 0, sine = 0;
+  constant_cos_sin(alpha, cosine, sine);
+  return sine != 0 ? Twist::other : cosine > 0 ? Twist::none : Twist::half;
+}
+
+/// v of length 1. Along an axis it is so already, to the bit.
+template <class T>
+Vec3<T> unit(const Vec3<T>& v) {
+  using std::sqrt;
+  return v * T(T(1) / sqrt(T(v.dot(v))));
+}
+
+/// Two vectors perpendicular to `axis`, of length 1, and to each other; `least` is where it points least.
+template <class T>
+std::array<Vec3<T>, 2> across(const Vec3<T>& axis, int least) {
+  const int i = (least + 1) % 3, j = (least + 2) % 3;
+  Vec3<T> one;
+  one[least] = T(0);
+  one[i] = axis[j];
+  one[j] = -axis[i];
+  one = unit<T>(one);
+  const Vec3<T> two{axis[1] * one[2] - axis[2] * one[1], axis[2] * one[0] - axis[0] * one[2],
+                    axis[0] * one[1] - axis[1] * one[0]};
+  return {one, two};
 }
 
 }  // namespace detail
@@ -124,6 +165,7 @@ Model<T> make_model(const std::shared_ptr<const Scene>& scene, std::span<const T
       sine = sin(angle);
     };
     cos_sin(transform.alpha, number(transform.alpha), link.cos_alpha, link.sin_alpha);
+    if (transform.alpha.is_constant()) link.twist = detail::twist_of(transform.alpha.constant());
     if (link.coordinate < 0 || link.prismatic)
       cos_sin(transform.theta, link.theta, link.cos_theta, link.sin_theta);
     link.path = model.path(link.parent);
@@ -147,6 +189,17 @@ Model<T> make_model(const std::shared_ptr<const Scene>& scene, std::span<const T
     T damping = number(load.damping);
     if (scene->friction_factor) damping *= parameters[scene->parameters.size()];
     model.coordinate_loads.push_back({load.coordinate, number(load.stiffness), number(load.rest), damping});
+  }
+  for (const auto& closure : scene->closures) {
+    typename Model<T>::Closure made;
+    const bool of_axes = closure.kind == Scene::Closure::Kind::parallel;
+    for (std::size_t i = 0; i < 2; ++i)
+      if (of_axes)
+        made.vectors[i] = detail::unit<T>(vector(closure.vectors[i]));
+      else if (closure.has_points())
+        made.vectors[i] = vector(closure.vectors[i]);
+    if (of_axes) made.across = detail::across<T>(made.vectors[0], closure.least_axis);
+    model.closures.push_back(std::move(made));
   }
   model.gravity = vector(scene->gravity);
   model.end_effector_point = vector(scene->end_effector.point);

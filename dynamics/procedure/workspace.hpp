@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "dynamics/procedure/model.hpp"
+#include "dynamics/procedure/small_system.hpp"
 
 namespace mixloop {
 
@@ -29,6 +31,9 @@ struct Workspace {
         q_bias(q),
         C(Mat<T>::Zero(model.m(), model.n())),
         along(static_cast<std::size_t>(model.m())),
+        x(Vec<T>::Zero(model.m())),
+        anchor_psi(model.n()),
+        systems(model.scene->blocks.size()),
         frames(model.links.size() + 1),
         D(3, model.m()),
         O(3, model.m()),
@@ -49,6 +54,10 @@ struct Workspace {
       frame.V.assign(model.path(static_cast<int>(i)).size(), zero);
     }
     end_effector.jacobian.resize(3, model.n());
+    for (int j = 0; j < model.m(); ++j) x[j] = T(model.scene->coordinates[static_cast<std::size_t>(j)].home);
+    anchor_x = x;
+    for (int i = 0; i < model.n(); ++i)
+      anchor_psi[i] = T(model.scene->home[static_cast<std::size_t>(i)]);
   }
 
   /// Of one frame: (6), (8), its rate, and the velocity products of (12).
@@ -63,6 +72,13 @@ struct Workspace {
   Vec<T> q_bias;                 ///< m: q'' where psi'' = 0
   Mat<T> C;                      ///< m x n, (3)
   std::vector<Taylor<T>> along;  ///< the coordinates along a line, while constraints are evaluated
+  Vec<T> x;                      ///< m: of the solved coordinates, at the pose in hand
+  Vec<T> anchor_x, anchor_psi;   ///< m, n: the last solution, from which the next is searched
+  T anchor_t{0};
+  bool is_solved = true;  ///< whether the closures hold at the pose in hand; x is not finite where they don't
+  /// Solves the closures in another way than by Newton's method on numbers.
+  std::function<void(const Model<T>&, std::span<const T> psi, const T& t, Workspace&)> solve = nullptr;
+  std::vector<SmallSystem<T>> systems;  ///< a block: its rows' slopes by its unknowns
   std::vector<Frame> frames;
   Mat<T> D, O;    ///< 3 x path: (9), (11) of the body in hand
   Mat<T> S;       ///< m x m: -sum [DD_i] (25)

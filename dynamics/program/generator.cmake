@@ -3,7 +3,9 @@
 set(MIXLOOP_GENERATOR_SOURCES
     symbolic/angles.cpp
     symbolic/articulated.cpp
+    symbolic/closed_chains.cpp
     symbolic/derivative.cpp
+    symbolic/dyad.cpp
     symbolic/evaluation_angles.cpp
     symbolic/expression.cpp
     symbolic/graph.cpp
@@ -15,7 +17,9 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/harmonic_sum.cpp
     symbolic/link_frames.cpp
     symbolic/literal.cpp
+    symbolic/newton_block.cpp
     symbolic/operation_count.cpp
+    symbolic/planar_loop.cpp
     symbolic/polynomial.cpp
     symbolic/recursive.cpp
     symbolic/tracer.cpp

@@ -27,6 +27,10 @@ Program make_program(const Graph& graph, std::span<const NodeId> outputs) {
   for (NodeId id = 0; id < graph.size(); ++id) {
     if (!is_needed[id]) continue;
     ExpressionNode node = graph[id];
+    if (node.op == Op::hold) {
+      now[id] = now[node.a];
+      continue;
+    }
     if (!is_leaf(node.op)) {
       node.a = now[node.a];
       if (is_binary(node.op)) node.b = now[node.b];

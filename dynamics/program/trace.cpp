@@ -33,10 +33,14 @@ Nodes linearisation(Graph& graph, const Scene& scene, Tracer& tracer) {
   append(stand_ins, held);
   append(psidd, tracer.forward_dynamics(motor_inputs(scene)));
   Nodes outputs;
+  const std::vector<Cut> cuts = tracer.cuts();
   for (const ExpressionVector* x : {&in.psi, &in.psid}) {
     ExpressionMatrix B(n, n);
     for (int j = 0; j < n; ++j) {
-      const Nodes d = tangents(graph, residual, Nodes{(*x)[j].node()}, Nodes{graph.one()});
+      Nodes inputs{(*x)[j].node()}, seeds{graph.one()};
+      if (x == &in.psi)
+        for (const Cut& cut : cuts) inputs.push_back(cut.node), seeds.push_back(cut.slopes[j].node());
+      const Nodes d = tangents(graph, residual, inputs, seeds);
       const Nodes at_psidd = substituted(graph, d, stand_ins, psidd);
       for (int i = 0; i < n; ++i) B(i, j) = -Expression::of(at_psidd[static_cast<std::size_t>(i)]);
     }
@@ -46,6 +50,7 @@ Nodes linearisation(Graph& graph, const Scene& scene, Tracer& tracer) {
   return outputs;
 }
 
+// What a purpose gives, without what its closures' solution does.
 Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracer& tracer) {
   const int n = scene->n(), n_u = scene->n_u();
   Nodes nodes;
@@ -73,9 +78,11 @@ Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpos
       break;
     }
     case Purpose::end_effector: {
-      const auto state = trace_end_effector(scene, input_vector(0, n));
+      std::vector<Expression> corrections;
+      const auto state = trace_end_effector(scene, input_vector(0, n), corrections);
       append(nodes, state.position), append(nodes, state.velocity), append(nodes, state.acceleration);
       append(nodes, state.jacobian);
+      for (const Expression& correction : corrections) nodes.push_back(correction.node());
       break;
     }
     case Purpose::dynamics_and_mass_times:
@@ -99,6 +106,18 @@ std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, T
   }
 }
 
+// Starts stand behind what the purpose's input takes.
+Program started_behind(Program program, const Scene& scene, Purpose purpose) {
+  const auto behind = static_cast<NodeId>(signature(purpose).input_size(scene.n(), scene.n_u()));
+  for (ExpressionNode& node : program.nodes) {
+    if (node.op != Op::input || static_cast<Block>(node.a) != Block::start) continue;
+    node.a = static_cast<NodeId>(Block::input);
+    node.b += behind;
+    program.takes_start = true;
+  }
+  return program;
+}
+
 }  // namespace
 
 Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracing tracing) {
@@ -109,7 +128,9 @@ Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracin
     const Recording recording(graph);
     const auto tracer = make_tracer(scene, tracing);
     if (!tracer) return {};
-    return with_short_chains(make_program(graph, outputs_of(graph, scene, purpose, *tracer)));
+    Nodes outputs = outputs_of(graph, scene, purpose, *tracer);
+    for (const Expression& correction : tracer->corrections()) outputs.push_back(correction.node());
+    return started_behind(with_short_chains(make_program(graph, outputs)), *scene, purpose);
   } catch (const GraphFull&) {
     return {};
   }

@@ -19,7 +19,7 @@ class ValuesAtHome {
     symbols_.insert(symbols_.end(), parameters.begin(), parameters.end());
     symbols_.insert(symbols_.end(), scene.home.begin(), scene.home.end());
     const auto q0 = symbols_.size();
-    symbols_.resize(q0 + scene.coordinates.size());
+    for (const auto& coordinate : scene.coordinates) symbols_.push_back(coordinate.home);
     for (const int j : scene.evaluation_order) {
       const auto& coordinate = scene.coordinates[static_cast<std::size_t>(j)];
       symbols_[q0 + static_cast<std::size_t>(j)] =

@@ -43,13 +43,14 @@ std::array<Formula, 3> SceneDraft::vector(const NodePtr& node, const Dimension& 
   return {part(0), part(1), part(2)};
 }
 
-int SceneDraft::frame(const Mapping& entry) const {
-  const NodePtr node = entry.at("frame");
-  const std::string& name = text_of(*node, "a frame's name");
+int SceneDraft::frame(const Mapping& entry) const { return frame_named(*entry.at("frame"), entry.what()); }
+
+int SceneDraft::frame_named(const Node& node, const std::string& what) const {
+  const std::string& name = text_of(node, "a frame's name");
   const auto found = frame_index.find(name);
   if (found == frame_index.end())
-    throw InputError("broken_path", node->place,
-                     entry.what() + " sits on the frame " + in_quotes(name) + ", which no transform makes" +
+    throw InputError("broken_path", node.place,
+                     what + " sits on the frame " + in_quotes(name) + ", which no transform makes" +
                          suggestion(name, scene.frames));
   return found->second;
 }
@@ -73,6 +74,11 @@ const Node* section(const Mapping& root, const char* key) {
     throw InputError("wrong_kind", node->place,
                      "found " + describe(*node) + "; expected " + key + " as name: value");
   return node.get();  // the document keeps it
+}
+
+bool has_closures(const Mapping& root) {
+  const NodePtr node = root.find("closures");
+  return node && node->kind != Node::Kind::empty;
 }
 
 std::vector<NodePtr> items_within(const NodePtr& node, std::size_t least, std::size_t most,

@@ -33,12 +33,16 @@ struct SceneDraft {
                                 const Scope& scope);
   /// The frame that the entry names under `frame`.
   int frame(const Mapping& entry) const;
+  /// The frame of this name; `what` sits on it.
+  int frame_named(const Node& name, const std::string& what) const;
   /// The coordinate that the entry names under `coordinate`.
   int coordinate(const Mapping& entry) const;
 };
 
 /// The mapping at `key` of a scene, or null where it is absent or empty; throws InputError for anything else.
 const Node* section(const Mapping& root, const char* key);
+/// Whether chains close, so that coordinates may go without a formula.
+bool has_closures(const Mapping& root);
 /// A list's items; throws InputError unless there are from `least` to `most`.
 std::vector<NodePtr> items_within(const NodePtr& node, std::size_t least, std::size_t most,
                                   const std::string& what);
@@ -53,6 +57,7 @@ void read_constraints(const Mapping& root, SceneDraft& draft);
 void read_transforms(const Mapping& root, SceneDraft& draft);
 void read_bodies(const Mapping& root, SceneDraft& draft);
 void read_loads(const Mapping& root, SceneDraft& draft);
+void read_closures(const Mapping& root, SceneDraft& draft);
 void read_solids(const Mapping& root, SceneDraft& draft);
 
 }  // namespace mixloop

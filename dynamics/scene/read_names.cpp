@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "dynamics/scene/definitions.hpp"
 #include "dynamics/scene/draft.hpp"
@@ -18,28 +19,77 @@ constexpr std::size_t kMostMotors = 64;
 constexpr std::size_t kMostCoordinates = 256;
 
 const Node& constraints_of(const Mapping& root) {
-  const NodePtr node = root.at("constraints");
+  static const Node none{.kind = Node::Kind::mapping};
+  // Where chains close, none need be written.
+  const NodePtr node = has_closures(root) ? root.find("constraints") : root.at("constraints");
+  if (!node) return none;
   if (node->kind != Node::Kind::mapping)
     throw InputError("wrong_kind", node->place,
                      "found " + describe(*node) + "; expected constraints as coordinate: equation");
   return *node;
 }
 
-void list_coordinates(const NodePtr& list, const Node& constraints, SceneDraft& draft) {
-  const auto constrained = [&](const std::string& name) {
-    return std::any_of(constraints.entries.begin(), constraints.entries.end(),
-                       [&](const auto& entry) { return entry.key == name; });
-  };
+/// Whether the transforms let a coordinate turn a frame (a pure number) or shift it (a length); as far as its
+/// name stands in them.
+std::optional<Dimension> dimension_in_transforms(const Mapping& root, const std::string& name) {
+  const NodePtr transforms = root.find("transforms");
+  if (!transforms || transforms->kind != Node::Kind::sequence) return std::nullopt;
+  for (const auto& item : transforms->items) {
+    if (item->kind != Node::Kind::mapping) continue;
+    for (const auto& [key, dimension] : {std::pair{"theta", kPure}, std::pair{"revolute", kPure},
+                                         std::pair{"s", kLength}, std::pair{"prismatic", kLength}}) {
+      const NodePtr value = find_entry(*item, key);
+      if (!value || value->kind != Node::Kind::scalar) continue;
+      const auto names = names_in(value->text);
+      if (std::find(names.begin(), names.end(), name) != names.end()) return dimension;
+    }
+  }
+  return std::nullopt;
+}
+
+/// A coordinate as its list has it: its name, or {name: rotary | linear}.
+struct Listed {
+  std::string name;
+  Place place;
+  std::optional<Dimension> dimension;
+};
+
+Listed listed(const Node& item) {
+  if (item.kind != Node::Kind::mapping)
+    return {text_of(item, "a coordinate's name"), item.place, std::nullopt};
+  if (item.entries.size() != 1)
+    throw InputError("wrong_size", item.place,
+                     "found " + describe(item) + "; expected a coordinate as name: rotary or name: linear");
+  const auto& [name, place, kind] = item.entries.front();
+  const bool linear = word_of(*kind, {"rotary", "linear"}, "the coordinate's kind") == 1;
+  return {name, place, linear ? kLength : kPure};
+}
+
+/// One without a formula: what it is, by its own word or the transform that it varies.
+Scene::Coordinate solved_coordinate(const Listed& said, const Mapping& root) {
+  const auto dimension = said.dimension ? said.dimension : dimension_in_transforms(root, said.name);
+  if (!has_closures(root))
+    throw InputError("missing_constraint", said.place,
+                     "no constraint gives the coordinate '" + said.name + "'; expected an entry '" +
+                         said.name + ": ...' under constraints, or closures that it follows from");
+  if (!dimension)
+    throw InputError("missing_constraint", said.place,
+                     "no constraint gives the coordinate '" + said.name +
+                         "' and no transform varies by it, so that nothing says what it is; expected {" +
+                         said.name + ": rotary} or {" + said.name + ": linear}");
+  return {.name = said.name, .constraint = {.dimension = *dimension}, .place = said.place};
+}
+
+void list_coordinates(const NodePtr& list, const Node& constraints, const Mapping& root, SceneDraft& draft) {
   for (const auto& item : items_within(list, 1, kMostCoordinates, "the coordinates' names")) {
-    const std::string& name = text_of(*item, "a coordinate's name");
-    check_symbol_name(name, item->place);
-    if (!draft.coordinate_index.emplace(name, draft.scene.m()).second)
-      throw InputError("doubly_defined", item->place, "the coordinate '" + name + "' is listed twice");
-    if (!constrained(name))
-      throw InputError("missing_constraint", item->place,
-                       "no constraint gives the coordinate '" + name + "'; expected an entry '" + name +
-                           ": ...' under constraints");
-    draft.scene.coordinates.push_back({name, {}});
+    const Listed said = listed(*item);
+    check_symbol_name(said.name, said.place);
+    if (!draft.coordinate_index.emplace(said.name, draft.scene.m()).second)
+      throw InputError("doubly_defined", said.place, "the coordinate '" + said.name + "' is listed twice");
+    if (find_entry(constraints, said.name))
+      draft.scene.coordinates.push_back({.name = said.name, .place = said.place});
+    else
+      draft.scene.coordinates.push_back(solved_coordinate(said, root));
   }
 }
 
@@ -110,9 +160,15 @@ void read_motors(const Mapping& root, SceneDraft& draft) {
 
 void read_constraints(const Mapping& root, SceneDraft& draft) {
   const Node& constraints = constraints_of(root);
-  list_coordinates(root.at("coordinates"), constraints, draft);
+  list_coordinates(root.at("coordinates"), constraints, root, draft);
   refuse_other_constraints(constraints, draft);
   const Symbols symbols(draft.scene);
+  for (int j = 0; j < draft.scene.m(); ++j) {
+    const auto& coordinate = draft.scene.coordinates[static_cast<std::size_t>(j)];
+    if (!find_entry(constraints, coordinate.name))
+      draft.moving.define_symbol(coordinate.name, symbols.q0 + j, coordinate.constraint.dimension,
+                                 coordinate.place);
+  }
   define_in_order(constraints, "coordinates", [&](const Node::Entry& entry) {
     const int index = draft.coordinate_index.at(entry.key);
     Formula equation =
@@ -124,6 +180,7 @@ void read_constraints(const Mapping& root, SceneDraft& draft) {
                            "; expected an angle or a length");
     draft.scene.coordinates[static_cast<std::size_t>(index)].constraint = std::move(equation);
     draft.scene.evaluation_order.push_back(index);
+    draft.scene.steps.push_back({.coordinate = index});
     draft.moving.define_symbol(entry.key, symbols.q0 + index, dimension, entry.place);
   });
 }

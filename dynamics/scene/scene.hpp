@@ -23,10 +23,52 @@ struct Scene {
     bool driven = true;  ///< by a motor
   };
 
-  /// A dependent coordinate q_j and the constraint equation that gives it, (1).
+  /// A dependent coordinate q_j and the constraint equation that gives it, (1); one without is solved from
+  /// the closures, and its formula has a dimension alone.
   struct Coordinate {
     std::string name;
     Formula constraint;
+    double home = 0;  ///< of a solved one the guess where psi is home; once closures are assembled, its value
+    Place place = {};
+
+    bool is_solved() const { return constraint.nodes.empty(); }
+  };
+
+  /// What holds where a chain closes; each row is an equation that is zero.
+  struct Closure {
+    enum class Kind { coincide, distance, parallel, align, zero };
+    static constexpr std::array kKinds = {"coincide", "distance", "parallel", "align", "zero"};
+
+    std::string name;
+    Kind kind = Kind::zero;
+    std::array<int, 2> frames = {};
+    std::array<std::array<Formula, 3>, 2> vectors;  ///< points (m), or axes, in the frames' axes
+    std::vector<int> axes = {};                     ///< of coincide: which of x, y, z
+    int in = -1;                                    ///< of coincide: the frame whose axes they are
+    Formula value;                                  ///< a distance's length (m); what is zero
+    double home_length = 1;                         ///< a distance's, assembled
+    int least_axis = 0;                             ///< of parallel: where the first axis points least
+    Place place = {};
+
+    bool has_points() const { return kind == Kind::coincide || kind == Kind::distance; }
+    int rows() const;
+  };
+  struct ClosureRow {
+    int closure = 0, row = 0;
+  };
+
+  /// Coordinates that rows, as many, are solved for together.
+  struct Block {
+    std::vector<int> unknowns;
+    std::vector<ClosureRow> rows;
+    std::vector<int> within;  ///< coordinates with a formula of these that the rows need, in order
+    bool is_linear = false;
+  };
+
+  /// How the dependent coordinates follow one after the other: by a formula, or a block of them.
+  struct Step {
+    int coordinate = -1;
+    int block = -1;
   };
 
   /// A number that stays variable at run time, with its default.
@@ -99,6 +141,10 @@ struct Scene {
   std::vector<Independent> independent;  ///< Psi: the motors, then the free ones
   std::vector<Coordinate> coordinates;
   std::vector<int> evaluation_order;  ///< of the constraints: each after those it refers to
+  std::vector<Closure> closures;
+  std::vector<Block> blocks;
+  std::vector<Step> steps;                 ///< of all coordinates, each after those it needs
+  std::vector<ClosureRow> redundant_rows;  ///< follow from the others, and are not solved
   std::vector<Parameter> parameters;
   std::vector<Transform> transforms;  ///< parents first
   std::vector<std::string> frames;    ///< names; frame 0 is the ground
@@ -107,6 +153,7 @@ struct Scene {
   std::vector<CoordinateLoad> coordinate_loads;
   std::array<Formula, 3> gravity;  ///< m/s^2, inertial axes
   EndEffector end_effector;
+  double size = 1;           ///< m, of the mechanism whose closures are solved: what is near there
   std::vector<double> home;  ///< psi that picks the branch of the inverse kinematics
   std::vector<Singularity> singularities;
   std::vector<Solid> solids;
@@ -115,6 +162,10 @@ struct Scene {
   /// Of none read from a file: viscous friction is times a number, the last of the parameters' values.
   bool friction_factor = false;
 
+  /// How many numbers say where closures are solved from: of each solved coordinate, in their order, its value
+  /// and, of an angle, its cosine and sine.
+  int start_size() const;
+  bool turns(int coordinate) const;  ///< whether it is an angle
   /// Whether anything but inertia, gravity and the motors acts.
   bool is_loaded() const { return !loads.empty() || !coordinate_loads.empty(); }
   int n() const { return static_cast<int>(independent.size()); }
@@ -124,6 +175,8 @@ struct Scene {
   /// Whether there is viscous friction.
   bool has_friction() const;
   int m() const { return static_cast<int>(coordinates.size()); }
+  /// Whether coordinates are solved from closures as the mechanism moves.
+  bool is_closed() const { return !blocks.empty(); }
   /// Of the parameters, and 1 of the friction's factor where there is one.
   std::vector<double> default_parameters() const;
 };

@@ -118,6 +118,18 @@ std::optional<std::pair<NodeId, NodeId>> Graph::from_known(const AffineSum& sum)
   return std::nullopt;
 }
 
+NodeId Graph::held(NodeId of, unsigned tag) {
+  if (number(of)) return of;
+  return intern({Op::hold, of, tag, 0.0});
+}
+
+void Graph::set_pair(NodeId angle, NodeId cosine, NodeId sine) {
+  if (!pairs_.emplace(angle, std::pair{sine, cosine}).second) return;
+  angles_.push_back({affine(angle), sine, cosine});
+  partners_[sine] = cosine;
+  partners_[cosine] = sine;
+}
+
 std::pair<NodeId, NodeId> Graph::sine_cosine(NodeId angle) {
   ++angles_seen_.asked;
   if (auto known = pairs_.find(angle); known != pairs_.end()) return known->second;

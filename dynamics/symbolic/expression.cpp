@@ -41,6 +41,10 @@ Expression Expression::operator-() const {
   return is_node_ ? of(graph().unary(Op::neg, id_)) : Expression(-value_);
 }
 
+Expression Expression::held(const Expression& x, unsigned tag) {
+  return x.is_node_ ? of(graph().held(x.node(), tag)) : x;
+}
+
 Expression Expression::unary(Op op, const Expression& x) {
   if (!x.is_node_) return apply(op, x.value_);
   return of(graph().unary(op, x.node()));

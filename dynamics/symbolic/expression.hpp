@@ -46,6 +46,8 @@ class Expression {
   friend bool operator<=(const Expression& x, const Expression& y) { return x.number() <= y.number(); }
   friend bool operator>=(const Expression& x, const Expression& y) { return x.number() >= y.number(); }
 
+  /// As Graph::held; a number is itself.
+  static Expression held(const Expression& x, unsigned tag);
   static Expression unary(Op op, const Expression& x);
   static Expression binary(Op op, const Expression& x, const Expression& y);
 

@@ -184,14 +184,20 @@ NodeId Graph::div(NodeId a, NodeId b) {
 
 // sin(u)^2 + cos(u)^2 = 1
 std::optional<NodeId> Graph::pythagoras(NodeId a, NodeId b) {
-  auto squared = [&](NodeId id) -> std::optional<ExpressionNode> {
+  auto squared = [&](NodeId id) -> std::optional<NodeId> {
     const ExpressionNode& n = nodes_[id];
     if (n.op != Op::mul || n.a != n.b) return std::nullopt;
-    return nodes_[n.a];
+    return n.a;
   };
-  const auto x = squared(a), y = squared(b);
-  if (!x || !y || x->a != y->a) return std::nullopt;
-  if ((x->op == Op::sin && y->op == Op::cos) || (x->op == Op::cos && y->op == Op::sin)) return one_;
+  const auto of_a = squared(a), of_b = squared(b);
+  if (!of_a || !of_b) return std::nullopt;
+  const ExpressionNode &x = nodes_[*of_a], &y = nodes_[*of_b];
+  if (x.op == Op::hold) {
+    const auto partner = partners_.find(*of_a);
+    if (partner != partners_.end() && partner->second == *of_b) return one_;
+  }
+  if (x.a != y.a) return std::nullopt;
+  if ((x.op == Op::sin && y.op == Op::cos) || (x.op == Op::cos && y.op == Op::sin)) return one_;
   return std::nullopt;
 }
 

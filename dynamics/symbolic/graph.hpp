@@ -26,6 +26,7 @@ enum class Op : std::uint8_t {
   cos,
   exp,
   log,
+  hold,  ///< its operand, which nothing is simplified through; in no program
   add,
   sub,
   mul,
@@ -33,7 +34,7 @@ enum class Op : std::uint8_t {
   atan2,
 };
 
-constexpr std::size_t kOps = 13;
+constexpr std::size_t kOps = 14;
 
 /// What else is known of an operation is a row in operations.hpp.
 constexpr bool is_leaf(Op op) { return op <= Op::input; }
@@ -41,8 +42,15 @@ constexpr bool is_leaf(Op op) { return op <= Op::input; }
 constexpr bool is_binary(Op op) { return op >= Op::add; }
 
 /// Where an input comes from. Whatever depends on parameters alone is computed before the run.
-enum class Block : std::uint8_t { psi, psid, input, time, parameter };
-constexpr std::size_t kBlocks = 5;
+enum class Block : std::uint8_t {
+  psi,
+  psid,
+  input,
+  time,
+  parameter,
+  start,  ///< where closures are solved from; in programs behind what a purpose's input takes
+};
+constexpr std::size_t kBlocks = 6;
 
 /// One operation. For `constant` the number is `value`; for `input`, a is the Block and b the index in it.
 struct ExpressionNode {
@@ -94,6 +102,12 @@ class Graph {
   /// The node as an affine sum of others (of itself, where nothing can be taken apart).
   const AffineSum& affine(NodeId id);
 
+  /// A node that stands for another: of equal value, but with no past that anything is simplified by. Equal
+  /// ones with equal tags are one.
+  NodeId held(NodeId of, unsigned tag);
+  /// Says what the cosine and sine of an angle are that has been held; they are held, too.
+  void set_pair(NodeId angle, NodeId cosine, NodeId sine);
+
   /// Sine and cosine of a node, from a shared pair where there is one.
   std::pair<NodeId, NodeId> sine_cosine(NodeId angle);
 
@@ -133,6 +147,7 @@ class Graph {
   std::unordered_map<NodeId, AffineSum> affine_;
   std::unordered_map<NodeId, std::pair<NodeId, NodeId>> pairs_;
   std::vector<Angle> angles_;
+  std::unordered_map<NodeId, NodeId> partners_;  ///< of a held sine its cosine, and the other way round
   AngleStatistics angles_seen_;
   NodeId zero_ = 0, one_ = 0;
 };

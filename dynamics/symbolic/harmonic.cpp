@@ -91,6 +91,7 @@ constexpr std::size_t kBasesTried = 8;
 }  // namespace
 
 std::unique_ptr<Tracer> harmonic_tracer(std::shared_ptr<const Scene> scene) {
+  if (scene->is_closed()) return nullptr;
   auto energy = harmonic_energy(scene, recording_graph());
   if (!energy) return nullptr;
   auto found = std::make_shared<HarmonicScene>();

@@ -18,7 +18,12 @@ M3 parallel_axis(const V3& r, const V3& moment) {
 }
 
 LinkFrames::LinkFrames(const std::shared_ptr<const Scene>& scene)
-    : in_(*scene), model_(make_model<E>(scene, std::span<const E>(in_.parameters))), workspace_(model_) {
+    : in_(*scene), model_(make_model<E>(scene, std::span<const E>(in_.parameters))),
+      workspace_(model_),
+      chains_(std::make_shared<ClosedChains>(in_)) {
+  workspace_.solve = [chains = chains_](const auto& model, auto, const auto&, auto& ws) {
+    chains->solve(model, ws);
+  };
   mixloop::coordinates<E>(model_, span_of(in_.psi), in_.t, workspace_);
   coordinate_rates<E>(model_, span_of(in_.psi), span_of(in_.psid), in_.t, workspace_);
   place_links();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/procedure/model.hpp"
+#include "dynamics/symbolic/closed_chains.hpp"
 #include "dynamics/symbolic/tracer.hpp"
 
 namespace mixloop {
@@ -87,6 +88,9 @@ class LinkFrames {
   /// q, qd and q_bias (m) and C (m x n).
   const Workspace<Expression>& coordinates() const { return workspace_; }
 
+  /// What closures are solved for.
+  const ClosedChains& chains() const { return *chains_; }
+
   std::size_t size() const { return links_.size(); }
   const Link& operator[](std::size_t i) const { return links_[i]; }
   std::size_t parent(std::size_t i) const { return static_cast<std::size_t>(model_.links[i].parent); }
@@ -115,6 +119,7 @@ class LinkFrames {
   TracedInputs in_;
   Model<Expression> model_;
   Workspace<Expression> workspace_;
+  std::shared_ptr<ClosedChains> chains_;
   std::vector<Link> links_;
   std::vector<Inertia> inertias_;
 };

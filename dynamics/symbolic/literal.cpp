@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The procedure recorded as it stands.
 #include "dynamics/procedure/procedure.hpp"
+#include "dynamics/symbolic/closed_chains.hpp"
 #include "dynamics/symbolic/tracer.hpp"
 
 namespace mixloop {
@@ -11,7 +12,9 @@ class LiteralTracer final : public Tracer {
   explicit LiteralTracer(std::shared_ptr<const Scene> scene)
       : in_(*scene),
         model_(make_model<Expression>(scene, std::span<const Expression>(in_.parameters))),
-        workspace_(model_) {}
+        workspace_(model_) {
+    workspace_.solve = [this](const auto&, auto, const auto&, auto& ws) { chains_.solve(model_, ws); };
+  }
 
   ExpressionMatrix mass_matrix() override {
     return mixloop::mass_matrix<Expression>(model_, span_of(in_.psi), in_.t, workspace_);
@@ -22,6 +25,8 @@ class LiteralTracer final : public Tracer {
   Energy<Expression> energy() override {
     return mixloop::energy<Expression>(model_, span_of(in_.psi), span_of(in_.psid), in_.t, workspace_);
   }
+  std::vector<Cut> cuts() const override { return chains_.cuts(workspace_); }
+  std::vector<Expression> corrections() const override { return chains_.corrections(); }
   EndEffectorState<Expression> end_effector(const ExpressionVector& psidd) {
     return mixloop::end_effector<Expression>(model_, span_of(in_.psi), span_of(in_.psid), span_of(psidd),
                                              in_.t, workspace_);
@@ -31,6 +36,7 @@ class LiteralTracer final : public Tracer {
   TracedInputs in_;
   Model<Expression> model_;
   Workspace<Expression> workspace_;
+  ClosedChains chains_{in_};
 };
 
 }  // namespace
@@ -40,8 +46,12 @@ std::unique_ptr<Tracer> literal_tracer(std::shared_ptr<const Scene> scene) {
 }
 
 EndEffectorState<Expression> trace_end_effector(std::shared_ptr<const Scene> scene,
-                                                const ExpressionVector& psidd) {
-  return LiteralTracer(std::move(scene)).end_effector(psidd);
+                                                const ExpressionVector& psidd,
+                                                std::vector<Expression>& corrections) {
+  LiteralTracer tracer(std::move(scene));
+  auto state = tracer.end_effector(psidd);
+  corrections = tracer.corrections();
+  return state;
 }
 
 }  // namespace mixloop

@@ -72,6 +72,11 @@ inline constexpr std::array<Operation, kOps> kOperations = [] {
          return Partials{1.0 / a, 0.0};
        },
        25, 70, "mixloop_log", &Count::other},
+      {Op::hold, "hold", 1, detail::leaf,
+       [](E, E, E) {
+         return Partials{1.0, 0.0};
+       },
+       0, 0, "", nullptr},
       {Op::add, "add", 2, [](double a, double b) { return a + b; },
        [](E, E, E) {
          return Partials{1.0, 1.0};

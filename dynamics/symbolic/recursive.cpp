@@ -46,6 +46,9 @@ class RecursiveTracer final : public Tracer {
     return forces(qdd);
   }
 
+  std::vector<Cut> cuts() const override { return frames_.chains().cuts(at()); }
+  std::vector<E> corrections() const override { return frames_.chains().corrections(); }
+
   Energy<E> energy() override {
     Energy<E> energy;
     const ExpressionVector momentum =

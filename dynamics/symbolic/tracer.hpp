@@ -25,6 +25,12 @@ struct TracedInputs {
 /// one.
 ExpressionVector motor_inputs(const Scene& scene, int from = 0);
 
+/// A node that closures are solved for, with its derivatives by psi (n): where differentiating stops.
+struct Cut {
+  NodeId node;
+  ExpressionVector slopes;
+};
+
 /// A way to write down a scene's equations of motion on the expression scalar. Each is exact; they differ
 /// in how many operations they leave. Used while a Recording lives.
 class Tracer {
@@ -39,6 +45,11 @@ class Tracer {
   virtual ExpressionVector forward_dynamics(const ExpressionVector& tau);
   /// M^-1 B, column by column.
   virtual ExpressionMatrix mass_inverse_times(const ExpressionMatrix& B);
+
+  /// Of what has been written down so far: what closures are solved for, and the last corrections (rad or m)
+  /// of those that are solved by Newton's method.
+  virtual std::vector<Cut> cuts() const { return {}; }
+  virtual std::vector<Expression> corrections() const { return {}; }
 };
 
 /// Records the procedure as it stands: works for every scene.
@@ -55,8 +66,9 @@ std::unique_ptr<Tracer> articulated_tracer(std::shared_ptr<const Scene> scene);
 /// scene is none of that kind, or would take more terms than the budget.
 std::unique_ptr<Tracer> harmonic_tracer(std::shared_ptr<const Scene> scene);
 
-/// The end effector's state, recorded from the procedure.
+/// The end effector's state, recorded from the procedure, and `corrections` as a Tracer has them.
 EndEffectorState<Expression> trace_end_effector(std::shared_ptr<const Scene> scene,
-                                                const ExpressionVector& psidd);
+                                                const ExpressionVector& psidd,
+                                                std::vector<Expression>& corrections);
 
 }  // namespace mixloop

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/equations.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "integrators/integrator.hpp"
 
 namespace mixloop {

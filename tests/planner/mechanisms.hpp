@@ -6,7 +6,7 @@
 #include <string>
 
 #include "dynamics/procedure/procedure.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "planner/path.hpp"
 
 namespace mixloop {

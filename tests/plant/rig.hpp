@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "plant/plant.hpp"
 
 namespace mixloop {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/random_mechanism.hpp"
 

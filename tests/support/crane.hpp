@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "dynamics/scene/canonical.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 
 namespace mixloop {
 

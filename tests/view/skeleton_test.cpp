@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dynamics/procedure/kinematics.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "view/source.hpp"
 
 namespace mixloop {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/procedure/procedure.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "tests/oracles/multipliers.hpp"
 
 namespace mixloop {

@@ -7,7 +7,7 @@
 
 #include "certification.hpp"
 #include "dynamics/scene/canonical.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 #include "tests/oracles/random_mechanism.hpp"

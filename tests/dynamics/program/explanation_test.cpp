@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "dynamics/equations.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 

@@ -14,7 +14,7 @@
 #include "dynamics/program/lanes.hpp"
 #include "dynamics/program/machine_code.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 #include "tests/support/allocation_counter.hpp"

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "dynamics/program/firmware.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 

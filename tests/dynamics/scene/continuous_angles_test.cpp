@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/procedure/procedure.hpp"
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 
 namespace mixloop {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/symbolic/evaluation_angles.hpp"
 #include "dynamics/symbolic/harmonic_form.hpp"
 

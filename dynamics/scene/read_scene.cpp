@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/scene/load_scene.hpp"
+#include "dynamics/scene/read_scene.hpp"
 
 #include <algorithm>
+#include <optional>
 
-#include "dynamics/scene/canonical.hpp"
-#include "dynamics/scene/continuous_angles.hpp"
 #include "dynamics/scene/draft.hpp"
 #include "dynamics/scene/scene_keys.hpp"
 #include "notation/utf8.hpp"
@@ -42,15 +41,28 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   if (!node) return;
   std::vector<std::string> names;
   for (const auto& coordinate : scene.independent) names.push_back(coordinate.name);
+  for (const auto& coordinate : scene.coordinates) names.push_back(coordinate.name);
   const Mapping entry(node, "home", names);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const NodePtr value = entry.find(names[i]);
-    if (!value) continue;
-    const Formula psi = draft.formula(*value, scene.independent[i].linear ? kLength : kPure,
-                                      "the position of '" + names[i] + "'", draft.fixed);
+  const auto number = [&](const std::string& name, const Dimension& wanted) -> std::optional<double> {
+    const NodePtr value = entry.find(name);
+    if (!value) return std::nullopt;
+    const Formula psi =
+        draft.formula(*value, wanted, "the position of '" + name + "'", draft.fixed);
     if (!psi.is_constant())
       throw InputError("varying_number", value->place, "home depends on no parameter; expected a number");
-    scene.home[i] = psi.constant();
+    return psi.constant();
+  };
+  for (std::size_t i = 0; i < scene.independent.size(); ++i)
+    scene.home[i] =
+        number(scene.independent[i].name, scene.independent[i].linear ? kLength : kPure).value_or(0);
+  for (auto& coordinate : scene.coordinates) {
+    if (coordinate.is_solved())
+      coordinate.home = number(coordinate.name, coordinate.constraint.dimension).value_or(0);
+    else if (const NodePtr value = entry.find(coordinate.name))
+      throw InputError("guess_beside_formula", value->place,
+                       "the coordinate '" + coordinate.name +
+                           "' follows from its formula and takes no guess; expected motors, and coordinates "
+                           "that are solved from closures");
   }
 }
 
@@ -82,8 +94,10 @@ const Keys& scene_keys() {
        {"constants", named(number())},
        {"parameters", named(number())},
        {"motors", one_of({list(text()), named(word({"rotary", "linear"}))}), kRequired},
-       {"coordinates", list(text()), kRequired},
-       {"constraints", named(number()), kRequired},
+       {"coordinates", list(one_of({text(), named(word({"rotary", "linear"}))})), kRequired},
+       {"constraints", named(number())},
+       {"closures", list(one_of({mapping(coincide_keys), mapping(distance_keys), mapping(parallel_keys),
+                                 mapping(align_keys), mapping(zero_keys)}))},
        {"transforms", list(mapping(transform_keys)), kRequired},
        {"bodies", list(mapping(body_keys)), kRequired},
        {"loads", list(one_of({mapping(load_keys), mapping(coordinate_load_keys)}))},
@@ -95,11 +109,10 @@ const Keys& scene_keys() {
   return keys;
 }
 
-Scene load_scene(const NodePtr& document) {
+Scene read_scene(const NodePtr& document) {
   const Mapping root = read_mapping(document, scene_keys());
   SceneDraft draft;
-  Scene& scene = draft.scene;
-  read_name(root, scene);
+  read_name(root, draft.scene);
   read_parameters(root, draft);
   read_constants(root, draft);
   read_motors(root, draft);
@@ -107,35 +120,13 @@ Scene load_scene(const NodePtr& document) {
   read_transforms(root, draft);
   read_bodies(root, draft);
   read_loads(root, draft);
-  scene.gravity = draft.vector(root.find("gravity"), kAcceleration, "gravity", draft.fixed);
+  read_closures(root, draft);
+  draft.scene.gravity = draft.vector(root.find("gravity"), kAcceleration, "gravity", draft.fixed);
   read_end_effector(root, draft);
   read_home(root, draft);
   read_singularities(root, draft);
   read_solids(root, draft);
-  check_physical(scene, scene.default_parameters());
-  turn_cuts_away_from_home(scene);
-  scene.warnings = physical_warnings(scene);
-  scene.canonical = canonical_text(scene);
   return std::move(draft.scene);
-}
-
-Scene load_scene(const std::filesystem::path& path) { return load_scene(read_document(path)); }
-
-std::vector<double> parameter_values(const Scene& scene, const NodePtr& overrides,
-                                     std::vector<double> values) {
-  if (!overrides || overrides->kind == Node::Kind::empty) return values;
-  std::vector<std::string> names;
-  for (const auto& parameter : scene.parameters) names.push_back(parameter.name);
-  const Mapping entry(overrides, "the parameters", names);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (const NodePtr value = entry.find(names[i]))
-      values[i] = number_of(*value, scene.parameters[i].dimension, "the parameter '" + names[i] + "'");
-  try {
-    check_physical(scene, values);
-  } catch (const InputError& error) {
-    throw InputError(error.code, overrides->place, "with these parameters, " + error.message);
-  }
-  return values;
 }
 
 }  // namespace mixloop

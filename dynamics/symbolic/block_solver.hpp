@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "dynamics/procedure/coordinates_along.hpp"
+#include "dynamics/symbolic/closed_chains.hpp"
+
+namespace mixloop {
+
+using AlongOnGraph = detail::CoordinatesAlong<Expression>;
+
+/// What a block's solution leaves.
+struct SolvedBlock {
+  std::vector<Expression> x;  ///< of its unknowns
+  std::vector<ClosedChains::Angle> angles;
+  std::vector<ClosedChains::Length> lengths;
+  std::vector<Expression> corrections;
+};
+
+/// An expression's value at home, at t = 0, with the parameters' defaults.
+class HomeValues {
+ public:
+  explicit HomeValues(const Scene& scene) : scene_(scene) {}
+  double of(const Expression& x);
+
+ private:
+  double input(Block block, std::size_t index) const;
+
+  const Scene& scene_;
+  std::vector<double> known_;
+};
+
+/// Where a solved coordinate is searched from: its value, and an angle's cosine and sine. Inputs of the graph.
+struct ClosureStart {
+  Expression value, cosine = 1.0, sine = 0.0;
+};
+ClosureStart start_of(const Scene& scene, int coordinate);
+
+/// Two links in a plane between two points, or a point and a line, that are known: nothing where the block is
+/// none.
+std::optional<SolvedBlock> solve_dyad(const Model<Expression>& model, int block, AlongOnGraph& along);
+
+/// Any block, by corrections from its start.
+SolvedBlock solve_by_newton(const Model<Expression>& model, int block, AlongOnGraph& along);
+
+/// An angle as it is known by its cosine and sine, near `about`; held, with its pair.
+ClosedChains::Angle held_angle(const WholeSum& of, const Planar& direction, const Expression& about,
+                               unsigned tag);
+
+}  // namespace mixloop
