@@ -9,6 +9,7 @@
 #include "dynamics/program/reference.hpp"
 #include "dynamics/program/trace.hpp"
 #include "dynamics/scene/canonical.hpp"
+#include "notation/errors.hpp"
 
 namespace mixloop {
 namespace {
@@ -32,25 +33,46 @@ Equations::Equations(std::shared_ptr<const Scene> scene, Evaluation how, std::sp
     plain_[at] = routine(scene_, purpose, how);
     if (scaled && signature(purpose).has_forces) scaled_[at] = routine(scaled, purpose, how);
   }
+  if (scene_->is_closed()) closures_ = of_closures(how);
 }
 
 std::unique_ptr<const Routine> Equations::routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,
                                                   Evaluation how) {
   if (how == Evaluation::reference) return reference_routine(scene, purpose);
+  auto found = made(
+      std::string(name_of(purpose)) + "\n" + scene->canonical, [&] { return trace(scene, purpose).program; },
+      how);
+  if (found) return found;
+  evaluation_ = Evaluation::reference;
+  return reference_routine(scene, purpose);
+}
+
+// The procedure itself has no program of it.
+std::unique_ptr<const Routine> Equations::of_closures(Evaluation how) {
+  auto found = made(
+      "closures\n" + scene_->canonical, [&] { return trace_closures(scene_); },
+      std::max(how, Evaluation::interpreter));
+  if (!found)
+    throw InputError("too_large", {scene_->name},
+                     "what its closures are solved by takes more operations than a program may; expected "
+                     "fewer closures");
+  return found;
+}
+
+std::unique_ptr<const Routine> Equations::made(const std::string& key, const std::function<Program()>& trace,
+                                               Evaluation how) {
   std::optional<Program> traced;
   const auto program = [&] {
-    if (!traced) traced = trace(scene, purpose).program;
+    if (!traced) traced = trace();
     return *traced;
   };
   if (how == Evaluation::machine_code) {
-    const std::string key = std::string(name_of(purpose)) + "\n" + scene->canonical;
     std::string complaint;
     if (auto code = MachineCode::load(key, program, complaint)) return code;
     if (complaint_.empty()) complaint_ = complaint;
   }
-  const bool is_traced = !program().outputs.empty();
-  evaluation_ = std::min(evaluation_, is_traced ? Evaluation::interpreter : Evaluation::reference);
-  if (!is_traced) return reference_routine(scene, purpose);
+  if (program().outputs.empty()) return nullptr;
+  evaluation_ = std::min(evaluation_, Evaluation::interpreter);
   return std::make_unique<Interpreter>(program());
 }
 
@@ -68,7 +90,9 @@ Equations::Workspace::Workspace(std::shared_ptr<const Equations> equations,
     if (equations_->plain_[i]) serving_[i] = Evaluator(*equations_->plain_[i]);
     if (equations_->scaled_[i]) resting_[i] = Evaluator(*equations_->scaled_[i]);
   }
+  if (equations_->closures_) follower_ = ClosureFollower(equations_->scene_, *equations_->closures_);
   set_parameters(parameters);
+  if (follower_) follower_.set_parameters(values_);
 }
 
 void Equations::Workspace::set_parameters(std::span<const double> parameters, double friction) noexcept {
@@ -81,6 +105,7 @@ void Equations::Workspace::set_parameters(std::span<const double> parameters, do
   }
   for (Evaluator& evaluator : serving_)
     if (evaluator) evaluator.set_up(values_);
+  if (follower_) follower_.change_parameters(values_);
 }
 
 }  // namespace mixloop

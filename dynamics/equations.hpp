@@ -2,18 +2,22 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "dynamics/closure_follower.hpp"
 #include "dynamics/procedure/purpose.hpp"
 #include "dynamics/program/evaluation.hpp"
 #include "dynamics/program/routine.hpp"
 #include "dynamics/scene/scene.hpp"
 
 namespace mixloop {
+
+struct Program;
 
 /// A scene's equations of motion, ready to evaluate for the purposes asked for. Constant: threads share them,
 /// each with a Workspace of its own.
@@ -40,11 +44,16 @@ class Equations {
 
   std::unique_ptr<const Routine> routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,
                                          Evaluation how);
+  std::unique_ptr<const Routine> of_closures(Evaluation how);
+  /// Of a key and what it stands for; nothing for a program that is too long to trace.
+  std::unique_ptr<const Routine> made(const std::string& key, const std::function<Program()>& program,
+                                      Evaluation how);
 
   std::shared_ptr<const Scene> scene_;
   Evaluation evaluation_;
   std::string complaint_;
   Routines plain_, scaled_;  ///< of the scene as it stands, and with its friction times a factor
+  std::unique_ptr<const Routine> closures_;  ///< where chains close
 };
 
 /// The same, to be shared.
@@ -71,9 +80,22 @@ class Equations::Workspace {
 
   /// Evaluates a purpose that was asked for. Spans are as long as its signature says, in SI units; outputs
   /// may not overlap inputs. Doesn't allocate, lock, print or throw.
+  ///
+  /// Where chains close and are solved by corrections, from the anchor: the pose that was accepted last, at
+  /// first home. Poses far from it are accepted on the way, unless `hold_anchor`.
   Status evaluate(Purpose purpose, const Arguments& at, std::span<double> outputs) noexcept {
-    return serving_[static_cast<std::size_t>(purpose)].evaluate(at, outputs);
+    Evaluator& evaluator = serving_[static_cast<std::size_t>(purpose)];
+    if (!follower_ || evaluator.solves_itself()) return evaluator.evaluate(at, outputs);
+    const auto takes = static_cast<std::size_t>(signature(purpose).input_size(scene().n(), scene().n_u()));
+    return follower_.evaluate(evaluator, at, takes, outputs, !holds_anchor_);
   }
+
+  /// From now on the anchor moves by `closures().accept` alone: whoever takes steps that may be rejected says
+  /// which counts.
+  void hold_anchor() { holds_anchor_ = true; }
+  /// What is watched of the closures, and where they are solved from; false where no chain closes.
+  ClosureFollower& closures() { return follower_; }
+  const ClosureFollower& closures() const { return follower_; }
 
  private:
   using Evaluators = std::array<Evaluator, kPurposes.size()>;
@@ -82,6 +104,8 @@ class Equations::Workspace {
   std::vector<double> values_;    ///< the parameters', then the factor
   Evaluators serving_, resting_;  ///< where there is a factor: with it and without, as it is 1 or not
   bool scaled_ = false;           ///< those with it serve
+  ClosureFollower follower_;
+  bool holds_anchor_ = false;
 };
 
 }  // namespace mixloop

@@ -27,7 +27,7 @@ static_assert(inner(Purpose::forward_dynamics) == mixloop::Purpose::forward_dyna
 static_assert(inner(Evaluation::reference) == mixloop::Evaluation::reference &&
               inner(Evaluation::interpreter) == mixloop::Evaluation::interpreter &&
               inner(Evaluation::machine_code) == mixloop::Evaluation::machine_code);
-static_assert(detail::kStatuses.size() == 2 && outer(mixloop::Status::ok) == Status::ok &&
+static_assert(detail::kStatuses.size() == 3 && outer(mixloop::Status::ok) == Status::ok &&
               outer(mixloop::Status::not_finite) == Status::not_finite);
 
 std::vector<mixloop::Purpose> inner_all(const std::vector<Purpose>& purposes) {

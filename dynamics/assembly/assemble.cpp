@@ -11,6 +11,7 @@
 #include "dynamics/assembly/linear_blocks.hpp"
 #include "dynamics/assembly/seeded.hpp"
 #include "dynamics/assembly/settle.hpp"
+#include "dynamics/assembly/starts.hpp"
 #include "dynamics/assembly/steps.hpp"
 #include "dynamics/assembly/structure.hpp"
 #include "dynamics/procedure/decompositions.hpp"
@@ -18,7 +19,6 @@
 
 namespace mixloop {
 namespace {
-
 
 /// "'loop 1' (2.3 mm)" of the closures that are open by more than round-off.
 std::vector<std::string> open_closures(Closing& closing, const Vector& x) {
@@ -46,8 +46,7 @@ std::vector<std::string> open_closures(Closing& closing, const Vector& x) {
   const auto kept = independent_rows(closing.slopes(part, x, closing.home_psi()));
   const Place& place = closing.scene().closures.front().place;
   part.rows = kept;
-  if (static_cast<int>(kept.size()) < closing.rows() &&
-      settle(closing, part, x, closing.home_psi()).closes)
+  if (static_cast<int>(kept.size()) < closing.rows() && settle(closing, part, x, closing.home_psi()).closes)
     throw InputError("overconstrained", place,
                      fmt::format("the closures contradict each other: with as many of them as there are "
                                  "coordinates without a formula, {} stay open. Expected fewer closures, or "
@@ -98,15 +97,15 @@ std::string pose_text(const Closing& closing, const Closing::Part& block, const 
   std::vector<std::string> texts;
   for (int u : block.unknowns) {
     const auto& name = closing.scene().coordinates[static_cast<std::size_t>(closing.coordinate(u))].name;
-    texts.push_back(closing.turns(u)
-                        ? fmt::format("{}: {:.4g} deg", name, x[u] * 180 / std::numbers::pi)
-                        : fmt::format("{}: {:.4g} m", name, x[u] * closing.unit_of_unknown(u)));
+    texts.push_back(closing.turns(u) ? fmt::format("{}: {:.4g} deg", name, x[u] * 180 / std::numbers::pi)
+                                     : fmt::format("{}: {:.4g} m", name, x[u] * closing.unit_of_unknown(u)));
   }
   return fmt::format("{{{}}}", fmt::join(texts, ", "));
 }
 
 /// Of each block, one after the other, the way nearest to the guess.
-void take_nearest(Closing& closing, const std::vector<Closing::Part>& blocks, const Vector& guess, Vector& x) {
+void take_nearest(Closing& closing, const std::vector<Closing::Part>& blocks, const Vector& guess,
+                  Vector& x) {
   for (const auto& block : blocks) {
     const auto ways = ways_of(closing, block, x, guess, seeds_for(block));
     if (ways.empty()) refuse(closing, x);
@@ -177,6 +176,7 @@ void assemble(Scene& scene) {
   put_home(scene, closing, x);
   for (int row : structure.redundant) scene.redundant_rows.push_back(closing.row(row));
   put_steps(scene, closing, structure.blocks, linear_blocks(scene, closing, structure.blocks, x));
+  find_starts(scene);
 }
 
 void check_assembled(const Scene& scene, const std::vector<double>& parameters) {
@@ -211,8 +211,9 @@ std::vector<Branch> branches(const Scene& scene, int seeds) {
     branch.from_guess = way.from_guess;
     branch.residual = way.settled.residual * scene.size;
     branch.iterations = way.settled.iterations;
-    branch.is_singular = static_cast<int>(
-        independent_rows(closing.slopes(whole, way.x, closing.home_psi())).size()) < closing.unknowns();
+    branch.is_singular =
+        static_cast<int>(independent_rows(closing.slopes(whole, way.x, closing.home_psi())).size()) <
+        closing.unknowns();
     found.push_back(std::move(branch));
   }
   return found;

@@ -42,29 +42,24 @@ double size_of(const Scene& scene) {
 
 Closing::Closing(const Scene& scene, std::span<const double> parameters)
     : scene_(open_scene(scene)), model_(make_model<double>(scene_, parameters)), ws_(model_) {
-  const auto is_length = [](const Formula& f) { return f.dimension.same_powers(kLength); };
   for (int j = 0; j < scene_->m(); ++j) {
     const auto& coordinate = scene_->coordinates[static_cast<std::size_t>(j)];
     if (!coordinate.is_solved()) continue;
     unknowns_.push_back(j);
-    unit_.push_back(is_length(coordinate.constraint) ? scene_->size : 1);
+    unit_.push_back(scene_->turns(j) ? 1 : scene_->size);
   }
   for (std::size_t c = 0; c < scene_->closures.size(); ++c) {
     const auto& closure = scene_->closures[c];
-    const bool length =
-        closure.has_points() || (closure.kind == Scene::Closure::Kind::zero && is_length(closure.value));
     for (int r = 0; r < closure.rows(); ++r) {
       rows_.push_back({static_cast<int>(c), r});
+      const bool length = scene_->is_length(rows_.back());
       row_unit_.push_back(length ? scene_->size : 1);
       row_is_length_.push_back(length);
     }
   }
 }
 
-bool Closing::turns(int unknown) const {
-  const auto& of = scene_->coordinates[static_cast<std::size_t>(coordinate(unknown))].constraint;
-  return !of.dimension.same_powers(kLength);
-}
+bool Closing::turns(int unknown) const { return scene_->turns(coordinate(unknown)); }
 
 Vector Closing::home_psi() const {
   return Eigen::Map<const Vector>(scene_->home.data(), static_cast<Eigen::Index>(scene_->home.size()));

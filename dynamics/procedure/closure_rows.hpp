@@ -7,9 +7,9 @@
 
 namespace mixloop {
 
-/// A frame's pose in the axes of one that it hangs on, on a scalar X. Turns about one axis are added up before
-/// their sine is taken: of links that turn in one plane the angles from the ground count, not those from link
-/// to link.
+/// A frame's pose in the axes of one that it hangs on, on a scalar X. Turns about one axis are added up
+/// before their sine is taken: of links that turn in one plane the angles from the ground count, not those
+/// from link to link.
 template <class X>
 struct PoseAlong {
   using Column = std::array<X, 3>;
@@ -23,24 +23,25 @@ struct PoseAlong {
     origin.fill(X(0.0));
   }
 
-  /// Of the frame that a transform makes of this one: theta by an angle, beside a constant angle by its
-  /// cosine and sine, then s, a and alpha.
-  template <class T>
-  void go_on(const X* angle, const T& cosine, const T& sine, const X& s, const T& a, const T& cos_alpha,
-             const T& sin_alpha, Twist twist) {
+  /// To the frame that a transform makes of this one: about z by an angle, or by a constant one's
+  /// cosine and sine; then along z and x, and about x.
+  void turn(const X& angle) {
+    turn_ = turns_ ? X(turn_ + angle) : angle;
+    turns_ = true;
+    using std::cos, std::sin;
+    turn(base_[0], base_[1], cos(turn_), sin(turn_));
+  }
+  void turn(const X& cosine, const X& sine) {
+    turn(Column(axes[0]), Column(axes[1]), cosine, sine);
+    turn(base_, cosine, sine);
+  }
+  void shift(const X& s, const X& a) {
+    for (std::size_t i = 0; i < 3; ++i) origin[i] = origin[i] + (axes[0][i] * a + axes[2][i] * s);
+  }
+  void twist(const X& cosine, const X& sine, Twist by) {
     auto& [x, y, z] = axes;
-    if (angle != nullptr) {
-      turn_ = turns_ ? X(turn_ + *angle) : *angle;
-      turns_ = true;
-      using std::cos, std::sin;
-      turn(base_[0], base_[1], cos(turn_), sin(turn_));
-    } else {
-      turn(Column(x), Column(y), X(cosine), X(sine));
-      turn(base_, X(cosine), X(sine));
-    }
-    for (std::size_t i = 0; i < 3; ++i) origin[i] = origin[i] + (x[i] * X(a) + z[i] * s);
-    if (twist == Twist::none) return;
-    if (twist == Twist::half) {
+    if (by == Twist::none) return;
+    if (by == Twist::half) {
       for (std::size_t i = 0; i < 3; ++i) {
         y[i] = -y[i], z[i] = -z[i];
         base_[1][i] = -base_[1][i];
@@ -50,8 +51,8 @@ struct PoseAlong {
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const X across = y[i], up = z[i];
-      y[i] = across * X(cos_alpha) + up * X(sin_alpha);
-      z[i] = up * X(cos_alpha) - across * X(sin_alpha);
+      y[i] = across * cosine + up * sine;
+      z[i] = up * cosine - across * sine;
     }
     base_ = {x, y};
     turn_ = X(0.0);
@@ -133,13 +134,14 @@ class ClosureRows {
     Pose pose;
     for (; !chain.empty(); chain.pop_back()) {
       const auto& link = model_.links[static_cast<std::size_t>(chain.back() - 1)];
-      X s = number(link.s), theta(T(0));
-      if (link.coordinate >= 0 && link.prismatic)
-        s = X(link.scale) * along_(link.coordinate) + number(link.s);
-      const bool turns = link.coordinate >= 0 && !link.prismatic;
-      if (turns) theta = X(link.scale) * along_(link.coordinate) + number(link.theta);
-      pose.go_on(turns ? &theta : nullptr, link.cos_theta, link.sin_theta, s, link.a, link.cos_alpha,
-                 link.sin_alpha, link.twist);
+      X s = number(link.s);
+      if (link.coordinate >= 0 && link.prismatic) s = X(link.scale) * along_(link.coordinate) + s;
+      if (link.coordinate >= 0 && !link.prismatic)
+        pose.turn(X(link.scale) * along_(link.coordinate) + number(link.theta));
+      else
+        pose.turn(number(link.cos_theta), number(link.sin_theta));
+      pose.shift(s, number(link.a));
+      pose.twist(number(link.cos_alpha), number(link.sin_alpha), link.twist);
     }
     return pose;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "dynamics/symbolic/operations.hpp"
 
@@ -36,6 +37,10 @@ class Counted {
   friend Counted cos(const Counted& x) { return apply(Op::cos, x.value_); }
   friend Counted exp(const Counted& x) { return of(Op::exp, x); }
   friend Counted log(const Counted& x) { return of(Op::log, x); }
+  friend bool operator<(const Counted& x, const Counted& y) { return x.value_ < y.value_; }
+  friend bool operator>(const Counted& x, const Counted& y) { return x.value_ > y.value_; }
+  friend bool operator<=(const Counted& x, const Counted& y) { return x.value_ <= y.value_; }
+  friend Counted abs(const Counted& x) { return std::abs(x.value_); }
   friend Counted atan2(const Counted& y, const Counted& x) { return of(Op::atan2, y, x); }
 
  private:
@@ -48,6 +53,9 @@ class Counted {
 };
 
 }  // namespace mixloop
+
+template <>
+struct std::numeric_limits<mixloop::Counted> : std::numeric_limits<double> {};
 
 namespace Eigen {
 template <>

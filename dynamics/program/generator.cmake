@@ -15,6 +15,7 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/harmonic_form.cpp
     symbolic/harmonic_functions.cpp
     symbolic/harmonic_sum.cpp
+    symbolic/inertial.cpp
     symbolic/link_frames.cpp
     symbolic/literal.cpp
     symbolic/newton_block.cpp
@@ -22,6 +23,7 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/planar_loop.cpp
     symbolic/polynomial.cpp
     symbolic/recursive.cpp
+    symbolic/single_unknown.cpp
     symbolic/tracer.cpp
     program/short_chains.cpp
     program/program.cpp

@@ -19,7 +19,6 @@ struct Program {
   std::vector<ExpressionNode> nodes;
   std::vector<Stage> stages;  ///< when each node's value is known
   std::vector<NodeId> outputs;
-  bool takes_start = false;  ///< closures' start, behind the purpose's input
 
   OperationCount set_up_operations() const { return operations(Stage::set_up); }
   OperationCount run_operations() const { return operations(Stage::run); }

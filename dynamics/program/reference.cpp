@@ -30,6 +30,8 @@ class Reference final : public Routine {
     of(memory).model = make_model<double>(scene_, parameters);
   }
 
+  bool solves_closures() const override { return true; }
+
  private:
   static Procedure& of(Memory& memory) { return *std::any_cast<Procedure>(&memory.procedure); }
   void work_out(const Arguments& at, Memory& memory, double* outputs) const noexcept override {

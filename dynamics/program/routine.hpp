@@ -31,6 +31,8 @@ class Routine {
   virtual Memory make_memory() const = 0;
   /// Runs the set-up part: once before the first evaluation, and again when a parameter changes.
   virtual void set_up(std::span<const double> parameters, Memory& memory) const noexcept = 0;
+  /// Whether closures are solved within, from the last pose that was evaluated.
+  virtual bool solves_closures() const { return false; }
   /// Writes the outputs. No allocation, lock or exception.
   void run(const Arguments& at, Memory& memory, double* outputs) const noexcept {
     if (code_ != nullptr)
@@ -56,6 +58,7 @@ class Evaluator {
   explicit Evaluator(const Routine& routine) : routine_(&routine), memory_(routine.make_memory()) {}
 
   explicit operator bool() const { return routine_ != nullptr; }
+  bool solves_itself() const { return routine_->solves_closures(); }
   void set_up(std::span<const double> parameters) noexcept { routine_->set_up(parameters, memory_); }
   /// `outputs` is as long as what the routine gives.
   Status evaluate(const Arguments& at, std::span<double> outputs) noexcept {

@@ -9,16 +9,19 @@
 namespace mixloop {
 
 /// How an evaluation went.
-enum class Status : std::uint8_t { ok, not_finite };
+enum class Status : std::uint8_t { ok, not_finite, not_closed };
 
 namespace detail {
 struct StatusRow {
   std::string_view name, sentence;
 };
-inline constexpr std::array<StatusRow, 2> kStatuses = {{
+inline constexpr std::array<StatusRow, 3> kStatuses = {{
     {"ok", "the result is finite"},
     {"not_finite",
      "the result is not finite: the mass matrix is singular there, or an argument is not finite"},
+    {"not_closed",
+     "the closures can't be solved there: the mechanism doesn't reach so far, or a singular pose is on the "
+     "way"},
 }};
 }  // namespace detail
 

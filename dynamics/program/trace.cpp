@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/program/trace.hpp"
 
+#include <stdexcept>
+
 #include "dynamics/program/short_chains.hpp"
+#include "dynamics/symbolic/closed_chains.hpp"
 #include "dynamics/symbolic/derivative.hpp"
 #include "dynamics/symbolic/operations.hpp"
 #include "dynamics/symbolic/tracer.hpp"
@@ -78,11 +81,11 @@ Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpos
       break;
     }
     case Purpose::end_effector: {
-      std::vector<Expression> corrections;
-      const auto state = trace_end_effector(scene, input_vector(0, n), corrections);
+      std::vector<Expression> solved;
+      const auto state = trace_end_effector(scene, input_vector(0, n), solved);
       append(nodes, state.position), append(nodes, state.velocity), append(nodes, state.acceleration);
       append(nodes, state.jacobian);
-      for (const Expression& correction : corrections) nodes.push_back(correction.node());
+      for (const Expression& number : solved) nodes.push_back(number.node());
       break;
     }
     case Purpose::dynamics_and_mass_times:
@@ -101,19 +104,21 @@ std::unique_ptr<Tracer> make_tracer(const std::shared_ptr<const Scene>& scene, T
       return articulated_tracer(scene);
     case Tracing::harmonic:
       return harmonic_tracer(scene);
+    case Tracing::inertial:
+      return inertial_tracer(scene);
     default:
       return literal_tracer(scene);
   }
 }
 
 // Starts stand behind what the purpose's input takes.
-Program started_behind(Program program, const Scene& scene, Purpose purpose) {
-  const auto behind = static_cast<NodeId>(signature(purpose).input_size(scene.n(), scene.n_u()));
+Program started_behind(Program program, const Scene& scene, int behind) {
   for (ExpressionNode& node : program.nodes) {
     if (node.op != Op::input || static_cast<Block>(node.a) != Block::start) continue;
+    if (node.b >= static_cast<NodeId>(scene.start_size()))
+      throw std::logic_error("a program needs the start of a coordinate that has none");
     node.a = static_cast<NodeId>(Block::input);
-    node.b += behind;
-    program.takes_start = true;
+    node.b += static_cast<NodeId>(behind);
   }
   return program;
 }
@@ -129,8 +134,9 @@ Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracin
     const auto tracer = make_tracer(scene, tracing);
     if (!tracer) return {};
     Nodes outputs = outputs_of(graph, scene, purpose, *tracer);
-    for (const Expression& correction : tracer->corrections()) outputs.push_back(correction.node());
-    return started_behind(with_short_chains(make_program(graph, outputs)), *scene, purpose);
+    for (const Expression& number : tracer->solved_from_start()) outputs.push_back(number.node());
+    const int behind = signature(purpose).input_size(scene->n(), scene->n_u());
+    return started_behind(with_short_chains(make_program(graph, outputs)), *scene, behind);
   } catch (const GraphFull&) {
     return {};
   }
@@ -157,7 +163,8 @@ bool is_small(const Scene& scene) { return scene.transforms.size() <= 8; }
 TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose) {
   if (purpose == Purpose::end_effector) return {trace(scene, purpose, Tracing::literal), Tracing::literal};
   TracedProgram best;
-  for (Tracing tracing : {Tracing::articulated, Tracing::recursive, Tracing::harmonic, Tracing::literal}) {
+  for (Tracing tracing :
+       {Tracing::articulated, Tracing::recursive, Tracing::harmonic, Tracing::inertial, Tracing::literal}) {
     if (tracing == Tracing::literal && !is_small(*scene)) continue;
     // Composite bodies take the square of n and more: articulated ones, where they serve, are ahead by far.
     if (tracing == Tracing::recursive && scene->n() > kMostComposite && !best.program.outputs.empty())
@@ -169,6 +176,56 @@ TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose) 
       best = {std::move(found), tracing};
   }
   return best;
+}
+
+}  // namespace mixloop
+
+namespace mixloop {
+namespace {
+
+// |G| |G^-1| / k of a block's scaled slopes.
+Expression condition_of(const Scene& scene, const Scene::Block& block, const ExpressionMatrix& slopes) {
+  const auto k = slopes.rows();
+  ExpressionMatrix scaled = slopes;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    if (scene.is_length(block.rows[static_cast<std::size_t>(i)])) scaled.row(i) *= Expression(1 / scene.size);
+    if (!scene.turns(block.unknowns[static_cast<std::size_t>(i)])) scaled.col(i) *= Expression(scene.size);
+  }
+  const SmallSystem<Expression> system(scaled);
+  Expression all = 0.0, inverse = 0.0;
+  for (Eigen::Index j = 0; j < k; ++j) {
+    ExpressionVector unit = ExpressionVector::Constant(k, Expression(0.0));
+    unit[j] = 1.0;
+    const ExpressionVector column = system.solve(unit);
+    inverse += column.dot(column);
+    all += scaled.col(j).dot(scaled.col(j));
+  }
+  return sqrt(all * inverse) * Expression(1.0 / static_cast<double>(k));
+}
+
+}  // namespace
+
+Program trace_closures(const std::shared_ptr<const Scene>& scene) try {
+  Graph graph;
+  const Recording recording(graph);
+  ClosedCoordinates closed(scene);
+  std::vector<Expression> numbers;
+  for (int j : scene->started) {
+    for (int i = 0; i < scene->n(); ++i) numbers.push_back(closed.C()(j, i));
+    numbers.push_back(closed.by_time(j));
+  }
+  for (const Expression& row : closed.rows()) numbers.push_back(row);
+  for (const Expression& pair : closed.stretches()) numbers.push_back(pair);
+  for (const auto& block : scene->blocks)
+    numbers.push_back(condition_of(*scene, block, closed.slopes(block)));
+  for (const Expression& number : closed.solution()) numbers.push_back(number);
+  for (const Expression& number : closed.corrections()) numbers.push_back(number);
+  Nodes outputs;
+  for (const Expression& number : numbers) outputs.push_back(number.node());
+  // Not simplified as one whole: what is watched is the solution as it came out.
+  return started_behind(make_program(graph, outputs), *scene, 0);
+} catch (const GraphFull&) {
+  return {};
 }
 
 }  // namespace mixloop

@@ -10,9 +10,9 @@
 namespace mixloop {
 
 /// How a program's equations were written down.
-enum class Tracing : std::uint8_t { literal, recursive, articulated, harmonic };
+enum class Tracing : std::uint8_t { literal, recursive, articulated, harmonic, inertial };
 constexpr std::string_view name_of(Tracing tracing) {
-  constexpr std::string_view kNames[] = {"literal", "recursive", "articulated", "harmonic"};
+  constexpr std::string_view kNames[] = {"literal", "recursive", "articulated", "harmonic", "inertial"};
   return kNames[static_cast<std::size_t>(tracing)];
 }
 
@@ -33,6 +33,14 @@ Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracin
 /// a graph holds. The same scene gives the same program on
 /// every machine: the choice goes by an estimate (see estimated_time), never by a clock.
 TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose);
+
+/// What is watched of a scene's closures at a pose, and from where they are solved next; an empty program
+/// where that takes more operations than a graph holds. Its input is a start (start_size()); it gives
+///   of each started coordinate the derivatives by psi (n) and by t,
+///   all rows of the closures (m or rad), and of each solved angle by how much its cosine and sine are off
+///   the unit circle, of each block |G| |G^-1| / k, Frobenius norms of the slopes with lengths in units of
+///   the scene's size, the solution (start_size()), and the last corrections.
+Program trace_closures(const std::shared_ptr<const Scene>& scene);
 
 /// Time of an evaluation's machine code in units of an addition, by the costs of operations.hpp.
 double estimated_time(const OperationCount& count);

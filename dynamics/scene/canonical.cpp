@@ -20,6 +20,23 @@ void add(std::string& text, std::span<const Formula> formulas) {
   for (const auto& formula : formulas) add(text, formula);
 }
 
+void add_closures(std::string& text, const Scene& scene) {
+  for (const auto& closure : scene.closures) {
+    text += fmt::format("closure {} {} {} {} {} {:a} {}\n", static_cast<int>(closure.kind), closure.frames[0],
+                        closure.frames[1], closure.in, closure.least_axis, closure.home_length,
+                        fmt::join(closure.axes, " "));
+    for (const auto& vector : closure.vectors) add(text, vector);
+    add(text, closure.value);
+  }
+  for (const auto& coordinate : scene.coordinates)
+    text += fmt::format("{:a} {} ", coordinate.home, coordinate.constraint.dimension.same_powers(kLength));
+  for (const auto& block : scene.blocks) {
+    text += fmt::format("\nblock {} {}", fmt::join(block.unknowns, " "), block.by_newton);
+    for (const auto& row : block.rows) text += fmt::format(" {}.{}", row.closure, row.row);
+  }
+  text += fmt::format("\nstarted {}\n", fmt::join(scene.started, " "));
+}
+
 }  // namespace
 
 std::string canonical_text(const Scene& scene) {
@@ -53,6 +70,7 @@ std::string canonical_text(const Scene& scene) {
     for (const auto* formula : {&load.stiffness, &load.rest, &load.damping}) add(text, *formula);
   }
   if (scene.friction_factor) text += "friction factor\n";
+  if (scene.is_closed()) add_closures(text, scene);
   text += "gravity\n";
   add(text, scene.gravity);
   text +=

@@ -28,11 +28,23 @@ bool Scene::turns(int coordinate) const {
   return !coordinates[static_cast<std::size_t>(coordinate)].constraint.dimension.same_powers(kLength);
 }
 
+bool Scene::is_length(const ClosureRow& row) const {
+  const Closure& closure = closures[static_cast<std::size_t>(row.closure)];
+  return closure.has_points() ||
+         (closure.kind == Closure::Kind::zero && closure.value.dimension.same_powers(kLength));
+}
+
 int Scene::start_size() const {
   int numbers = 0;
-  for (int j = 0; j < m(); ++j)
-    if (coordinates[static_cast<std::size_t>(j)].is_solved()) numbers += turns(j) ? 3 : 1;
+  for (int j : started) numbers += turns(j) ? 3 : 1;
   return numbers;
+}
+
+int Scene::corrections() const {
+  std::size_t number = 0;
+  for (const auto& block : blocks)
+    if (block.by_newton) number += block.unknowns.size();
+  return static_cast<int>(number);
 }
 
 std::vector<double> Scene::default_parameters() const {

@@ -62,7 +62,7 @@ struct Scene {
     std::vector<int> unknowns;
     std::vector<ClosureRow> rows;
     std::vector<int> within;  ///< coordinates with a formula of these that the rows need, in order
-    bool is_linear = false;
+    bool by_newton = true;    ///< solved by corrections from a start, else in closed form
   };
 
   /// How the dependent coordinates follow one after the other: by a formula, or a block of them.
@@ -144,6 +144,7 @@ struct Scene {
   std::vector<Closure> closures;
   std::vector<Block> blocks;
   std::vector<Step> steps;                 ///< of all coordinates, each after those it needs
+  std::vector<int> started;                ///< coordinates that are solved, or wound, from a start
   std::vector<ClosureRow> redundant_rows;  ///< follow from the others, and are not solved
   std::vector<Parameter> parameters;
   std::vector<Transform> transforms;  ///< parents first
@@ -162,10 +163,13 @@ struct Scene {
   /// Of none read from a file: viscous friction is times a number, the last of the parameters' values.
   bool friction_factor = false;
 
-  /// How many numbers say where closures are solved from: of each solved coordinate, in their order, its value
-  /// and, of an angle, its cosine and sine.
+  /// How many numbers say where closures are solved from: of each started coordinate its value and, of an
+  /// angle, its cosine and sine.
   int start_size() const;
-  bool turns(int coordinate) const;  ///< whether it is an angle
+  /// How many coordinates are solved by corrections from a start.
+  int corrections() const;
+  bool turns(int coordinate) const;             ///< whether it is an angle
+  bool is_length(const ClosureRow& row) const;  ///< or an angle
   /// Whether anything but inertia, gravity and the motors acts.
   bool is_loaded() const { return !loads.empty() || !coordinate_loads.empty(); }
   int n() const { return static_cast<int>(independent.size()); }

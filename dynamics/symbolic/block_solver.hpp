@@ -32,15 +32,21 @@ class HomeValues {
   std::vector<double> known_;
 };
 
-/// Where a solved coordinate is searched from: its value, and an angle's cosine and sine. Inputs of the graph.
+/// Where a solved coordinate is searched from: its value, and an angle's cosine and sine. Inputs of the
+/// graph.
 struct ClosureStart {
   Expression value, cosine = 1.0, sine = 0.0;
 };
+/// The index of a start that a scene has no room for: no program may need it.
+constexpr std::size_t kNoStart = 1 << 20;
 ClosureStart start_of(const Scene& scene, int coordinate);
 
 /// Two links in a plane between two points, or a point and a line, that are known: nothing where the block is
 /// none.
 std::optional<SolvedBlock> solve_dyad(const Model<Expression>& model, int block, AlongOnGraph& along);
+
+/// One coordinate and one row, which is linear in its cosine and sine, or of a length no more than quadratic.
+std::optional<SolvedBlock> solve_single(const Model<Expression>& model, int block, AlongOnGraph& along);
 
 /// Any block, by corrections from its start.
 SolvedBlock solve_by_newton(const Model<Expression>& model, int block, AlongOnGraph& along);

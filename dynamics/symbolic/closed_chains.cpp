@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/symbolic/closed_chains.hpp"
 
+#include "dynamics/procedure/constraints.hpp"
 #include "dynamics/symbolic/block_solver.hpp"
 #include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
 
 using E = Expression;
+
+SolvedBlock ClosedChains::solve_block(const Model<E>& model, int block, AlongOnGraph& along) {
+  if (auto single = solve_single(model, block, along)) {
+    how_.push_back(BlockSolution::single);
+    return std::move(*single);
+  }
+  if (auto dyad = solve_dyad(model, block, along)) {
+    how_.push_back(BlockSolution::dyad);
+    return std::move(*dyad);
+  }
+  how_.push_back(BlockSolution::newton);
+  return solve_by_newton(model, block, along);
+}
 
 void ClosedChains::solve(const Model<E>& model, Workspace<E>& ws) {
   how_.clear(), corrections_.clear(), angles_.clear(), lengths_.clear();
@@ -16,9 +30,7 @@ void ClosedChains::solve(const Model<E>& model, Workspace<E>& ws) {
       along.by_formula(step.coordinate);
       continue;
     }
-    auto dyad = solve_dyad(model, step.block, along);
-    const SolvedBlock solved = dyad ? std::move(*dyad) : solve_by_newton(model, step.block, along);
-    how_.push_back(dyad ? BlockSolution::dyad : BlockSolution::newton);
+    const SolvedBlock solved = solve_block(model, step.block, along);
     angles_.insert(angles_.end(), solved.angles.begin(), solved.angles.end());
     lengths_.insert(lengths_.end(), solved.lengths.begin(), solved.lengths.end());
     corrections_.insert(corrections_.end(), solved.corrections.begin(), solved.corrections.end());
@@ -32,12 +44,37 @@ void ClosedChains::solve(const Model<E>& model, Workspace<E>& ws) {
   }
 }
 
+std::vector<E> ClosedChains::solution(const Scene& scene, const Workspace<E>& ws) const {
+  std::vector<E> numbers;
+  for (int j : scene.started) {
+    const E& x = ws.x[j];
+    numbers.push_back(x);
+    if (!scene.turns(j)) continue;
+    numbers.push_back(cos(x));
+    numbers.push_back(sin(x));
+  }
+  return numbers;
+}
+
+std::vector<E> ClosedChains::solved_from_start(const Scene& scene, const Workspace<E>& ws) const {
+  if (corrections_.empty()) return {};
+  std::vector<E> solved = solution(scene, ws);
+  solved.insert(solved.end(), corrections_.begin(), corrections_.end());
+  return solved;
+}
+
+std::vector<E> ClosedChains::stretches() const {
+  std::vector<E> stretches;
+  for (const Angle& angle : angles_)
+    stretches.push_back(E(0.5) * ((angle.cosine * angle.cosine - E(1.0)) + angle.sine * angle.sine));
+  return stretches;
+}
+
 std::vector<Cut> ClosedChains::cuts(const Workspace<E>& ws) const {
   std::vector<Cut> cuts;
   const auto slopes_of = [&](const WholeSum& of) {
     ExpressionVector slopes = ExpressionVector::Constant(ws.C.cols(), E(0.0));
-    for (const auto& [coordinate, multiple] : of)
-      slopes += ws.C.row(coordinate).transpose() * E(multiple);
+    for (const auto& [coordinate, multiple] : of) slopes += ws.C.row(coordinate).transpose() * E(multiple);
     return slopes;
   };
   for (const Angle& angle : angles_) {
@@ -70,12 +107,10 @@ double HomeValues::input(Block block, std::size_t index) const {
   if (block == Block::psi) return scene_.home[index];
   if (block == Block::parameter) return scene_.default_parameters()[index];
   if (block != Block::start) return 0;
-  for (int j = 0; j < scene_.m(); ++j) {
-    const auto& coordinate = scene_.coordinates[static_cast<std::size_t>(j)];
-    if (!coordinate.is_solved()) continue;
+  for (int j : scene_.started) {
+    const double home = scene_.coordinates[static_cast<std::size_t>(j)].home;
     const std::size_t size = scene_.turns(j) ? 3 : 1;
-    if (index < size)
-      return index == 0 ? coordinate.home : index == 1 ? std::cos(coordinate.home) : std::sin(coordinate.home);
+    if (index < size) return index == 0 ? home : index == 1 ? std::cos(home) : std::sin(home);
     index -= size;
   }
   return 0;
@@ -83,8 +118,13 @@ double HomeValues::input(Block block, std::size_t index) const {
 
 ClosureStart start_of(const Scene& scene, int coordinate) {
   std::size_t index = 0;
-  for (int j = 0; j < coordinate; ++j)
-    if (scene.coordinates[static_cast<std::size_t>(j)].is_solved()) index += scene.turns(j) ? 3 : 1;
+  bool found = false;
+  for (int j : scene.started) {
+    found = j == coordinate;
+    if (found) break;
+    index += scene.turns(j) ? 3 : 1;
+  }
+  if (!found) index = kNoStart;
   const auto input = [&](std::size_t i) { return E::input(Block::start, index + i); };
   if (!scene.turns(coordinate)) return {input(0)};
   ClosureStart start{E::held(input(0), 0), E::held(input(1), 0), E::held(input(2), 0)};
@@ -98,6 +138,36 @@ ClosedChains::Angle held_angle(const WholeSum& of, const Planar& direction, cons
   const E angle = E::held(about + atan2(s * c_about - c * s_about, c * c_about + s * s_about), tag);
   recording_graph().set_pair(angle.node(), c.node(), s.node());
   return {of, angle, c, s};
+}
+
+ClosedCoordinates::ClosedCoordinates(const std::shared_ptr<const Scene>& scene)
+    : in_(*scene),
+      model_(make_model<E>(scene, std::span<const E>(in_.parameters))),
+      ws_(model_),
+      chains_(in_) {
+  ws_.solve = [this](const auto&, auto, const auto&, auto& ws) { chains_.solve(model_, ws); };
+  mixloop::coordinates<E>(model_, span_of(in_.psi), in_.t, ws_);
+  AlongOnGraph(model_, span_of(in_.psi), nullptr, in_.t, E(1.0), ws_).work_out(false);
+  for (const auto& along : ws_.along) by_time_.push_back(along.d);
+}
+
+std::vector<E> ClosedCoordinates::rows() {
+  AlongOnGraph along(model_, span_of(in_.psi), nullptr, in_.t, E(0.0), ws_);
+  std::vector<Scene::ClosureRow> all;
+  for (std::size_t c = 0; c < model_.scene->closures.size(); ++c)
+    for (int r = 0; r < model_.scene->closures[c].rows(); ++r) all.push_back({static_cast<int>(c), r});
+  std::vector<E> values;
+  for (const auto& row : along.rows_of(all)) values.push_back(row.v);
+  return values;
+}
+
+ExpressionMatrix ClosedCoordinates::slopes(const Scene::Block& block) {
+  AlongOnGraph along(model_, span_of(in_.psi), nullptr, in_.t, E(0.0), ws_);
+  ExpressionMatrix slopes;
+  ExpressionVector values;
+  along.linearise(block, slopes, values);
+  along.settle(block);
+  return slopes;
 }
 
 }  // namespace mixloop

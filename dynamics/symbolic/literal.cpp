@@ -26,7 +26,9 @@ class LiteralTracer final : public Tracer {
     return mixloop::energy<Expression>(model_, span_of(in_.psi), span_of(in_.psid), in_.t, workspace_);
   }
   std::vector<Cut> cuts() const override { return chains_.cuts(workspace_); }
-  std::vector<Expression> corrections() const override { return chains_.corrections(); }
+  std::vector<Expression> solved_from_start() const override {
+    return chains_.solved_from_start(*model_.scene, workspace_);
+  }
   EndEffectorState<Expression> end_effector(const ExpressionVector& psidd) {
     return mixloop::end_effector<Expression>(model_, span_of(in_.psi), span_of(in_.psid), span_of(psidd),
                                              in_.t, workspace_);
@@ -47,10 +49,10 @@ std::unique_ptr<Tracer> literal_tracer(std::shared_ptr<const Scene> scene) {
 
 EndEffectorState<Expression> trace_end_effector(std::shared_ptr<const Scene> scene,
                                                 const ExpressionVector& psidd,
-                                                std::vector<Expression>& corrections) {
+                                                std::vector<Expression>& solved) {
   LiteralTracer tracer(std::move(scene));
   auto state = tracer.end_effector(psidd);
-  corrections = tracer.corrections();
+  solved = tracer.solved_from_start();
   return state;
 }
 

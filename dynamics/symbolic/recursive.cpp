@@ -47,7 +47,9 @@ class RecursiveTracer final : public Tracer {
   }
 
   std::vector<Cut> cuts() const override { return frames_.chains().cuts(at()); }
-  std::vector<E> corrections() const override { return frames_.chains().corrections(); }
+  std::vector<E> solved_from_start() const override {
+    return frames_.chains().solved_from_start(*model().scene, at());
+  }
 
   Energy<E> energy() override {
     Energy<E> energy;

@@ -46,10 +46,11 @@ class Tracer {
   /// M^-1 B, column by column.
   virtual ExpressionMatrix mass_inverse_times(const ExpressionMatrix& B);
 
-  /// Of what has been written down so far: what closures are solved for, and the last corrections (rad or m)
-  /// of those that are solved by Newton's method.
+  /// Of what has been written down so far: what closures are solved for.
   virtual std::vector<Cut> cuts() const { return {}; }
-  virtual std::vector<Expression> corrections() const { return {}; }
+  /// Where closures are solved by Newton's method: the solution, a start for what comes next (start_size()),
+  /// and the last corrections (rad or m).
+  virtual std::vector<Expression> solved_from_start() const { return {}; }
 };
 
 /// Records the procedure as it stands: works for every scene.
@@ -57,6 +58,10 @@ std::unique_ptr<Tracer> literal_tracer(std::shared_ptr<const Scene> scene);
 
 /// Composite bodies and Newton-Euler in link frames, then C: far fewer operations on long chains.
 std::unique_ptr<Tracer> recursive_tracer(std::shared_ptr<const Scene> scene);
+
+/// Newton and Euler along C in inertial axes: the fewest operations where links that turn in one plane close
+/// a loop. nullptr where no chain closes.
+std::unique_ptr<Tracer> inertial_tracer(std::shared_ptr<const Scene> scene);
 
 /// Articulated bodies in link frames for forward dynamics, operations in proportion to n; the rest as the
 /// recursive tracer. nullptr unless each independent coordinate moves one joint of the tree alone.
@@ -66,9 +71,9 @@ std::unique_ptr<Tracer> articulated_tracer(std::shared_ptr<const Scene> scene);
 /// scene is none of that kind, or would take more terms than the budget.
 std::unique_ptr<Tracer> harmonic_tracer(std::shared_ptr<const Scene> scene);
 
-/// The end effector's state, recorded from the procedure, and `corrections` as a Tracer has them.
+/// The end effector's state, recorded from the procedure, and `solved` as Tracer::solved_from_start.
 EndEffectorState<Expression> trace_end_effector(std::shared_ptr<const Scene> scene,
                                                 const ExpressionVector& psidd,
-                                                std::vector<Expression>& corrections);
+                                                std::vector<Expression>& solved);
 
 }  // namespace mixloop

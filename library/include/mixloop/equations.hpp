@@ -38,6 +38,7 @@ enum class Purpose : std::uint8_t {
 enum class Status : std::uint8_t {
   ok,
   not_finite,  ///< the mass matrix is singular there, or an argument is not finite
+  not_closed,  ///< the mechanism doesn't reach so far, or a singular pose is on the way
 };
 
 /// Where a mechanism is. A view: who makes one keeps the numbers. An empty psid stands for zeros.

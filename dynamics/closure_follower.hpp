@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "dynamics/program/routine.hpp"
+#include "dynamics/scene/scene.hpp"
+
+namespace mixloop {
+
+/// What is watched of a scene's closures at a pose.
+struct ClosureWatch {
+  double residual = 0;                   ///< the largest of all rows, m or rad
+  std::span<const double> conditions{};  ///< of each block, 1 at best (trace_closures)
+};
+
+/// Where a scene's closures are solved from, and the solving of those that take corrections: the anchor is
+/// the last pose that was accepted, from which all near it are reached. A value: a copy goes on by itself.
+class ClosureFollower {
+ public:
+  ClosureFollower() = default;
+  /// `closures`: the routine of trace_closures, which must live on.
+  ClosureFollower(std::shared_ptr<const Scene> scene, const Routine& closures);
+
+  explicit operator bool() const { return scene_ != nullptr; }
+
+  /// Starts at home, these parameters (and a factor on friction, last) reached from the scene's defaults.
+  void set_parameters(std::span<const double> parameters) noexcept;
+
+  /// The same where the mechanism stands: the anchor stays.
+  void change_parameters(std::span<const double> parameters) noexcept { closures_.set_up(parameters); }
+
+  /// The anchor as numbers: the same numbers, the same solutions from there on.
+  std::span<const double> anchor() const { return anchor_; }
+  void put_back(std::span<const double> anchor) noexcept;
+
+  /// Accepts a pose. Status::not_closed, the anchor as it was, where it can't be reached.
+  Status accept(std::span<const double> psi, double t) noexcept;
+  /// At the last pose that was accepted.
+  ClosureWatch watch() const;
+
+  /// A purpose's evaluation that `evaluate` does, of `gives` numbers, its input completed by a start and its
+  /// corrections repeated until they are none. Where `follows`, poses that are not near the anchor are
+  /// accepted first.
+  Status evaluate(Evaluator& evaluator, const Arguments& at, std::size_t takes, std::span<double> outputs,
+                  bool follows) noexcept;
+
+ private:
+  struct Sizes {
+    std::size_t n, started, start, rows, blocks, corrections;
+  };
+
+  Status solve(Evaluator& evaluator, const Arguments& at, std::size_t takes, std::size_t gives) noexcept;
+  /// The start for a pose, from the anchor's rates, into input_ from `from` on. How far that went, rad or of
+  /// the scene's size.
+  double predict(std::span<const double> psi, double t, std::size_t from) noexcept;
+  Status step(std::span<const double> psi, double t) noexcept;
+  double way_to(std::span<const double> psi, double t) const noexcept;
+
+  std::shared_ptr<const Scene> scene_;
+  Evaluator closures_;
+  Sizes sizes_{};
+  std::vector<double> anchor_;   ///< start, rates by psi and t, psi, t
+  std::vector<double> scales_;   ///< of the corrections
+  std::vector<double> lengths_;  ///< of the independent coordinates
+  std::vector<double> watched_;  ///< what closures_ gave last
+  std::vector<double> input_, output_, psi_;
+};
+
+}  // namespace mixloop

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// One unknown and one row: an angle whose cosine and sine stand in it linearly, or a length up to its square.
+#include <algorithm>
+
+#include "dynamics/symbolic/block_solver.hpp"
+#include "dynamics/symbolic/derivative.hpp"
+
+namespace mixloop {
+namespace {
+
+using E = Expression;
+using Nodes = std::vector<NodeId>;
+
+bool is_zero(const E& x) { return x.is_number() && x.number() == 0.0; }
+
+/// Places in the graph that stand for what is not solved yet.
+E stand_in(int block, std::size_t index) {
+  return E::held(E::input(Block::start, kNoStart + 4 * static_cast<std::size_t>(block) + index), 0);
+}
+
+bool depends(const E& x, const E& on) {
+  if (x.is_number()) return false;
+  const Graph& graph = recording_graph();
+  return on.node() <= x.node() && needed(graph, Nodes{x.node()})[on.node()];
+}
+E slope(const E& x, const E& by) {
+  if (!depends(x, by)) return 0.0;
+  Graph& graph = recording_graph();
+  return E::of(tangents(graph, Nodes{x.node()}, Nodes{by.node()}, Nodes{graph.one()})[0]);
+}
+E without(const E& x, const std::vector<E>& parts) {
+  if (x.is_number()) return x;
+  Graph& graph = recording_graph();
+  Nodes nodes, zeros(parts.size(), graph.zero());
+  for (const E& part : parts) nodes.push_back(part.node());
+  return E::of(substituted(graph, Nodes{x.node()}, nodes, zeros)[0]);
+}
+
+class Single {
+ public:
+  Single(const Model<E>& model, int block, AlongOnGraph& along)
+      : model_(model),
+        scene_(*model.scene),
+        block_(scene_.blocks[static_cast<std::size_t>(block)]),
+        number_(block),
+        unknown_(block_.unknowns[0]),
+        along_(along),
+        home_(scene_) {}
+
+  std::optional<SolvedBlock> solved() { return scene_.turns(unknown_) ? angle() : length(); }
+
+ private:
+  E row_where(const E& x) {
+    along_.x(unknown_) = x;
+    along_.settle(block_);
+    return along_.rows_of(block_)[0].v;
+  }
+
+  unsigned tag() const { return 1 + static_cast<unsigned>(8 * number_); }
+  double at_home() const { return scene_.coordinates[static_cast<std::size_t>(unknown_)].home; }
+
+  /// What else turns along with the unknown in all of a planar loop: its angle from the ground is solved for.
+  WholeSum beside() const {
+    const auto loop = planar_loop(model_, block_.rows[0].closure);
+    std::optional<WholeSum> all;
+    if (loop)
+      for (const LoopVector& vector : loop->vectors) {
+        const auto mine = vector.turned.find(unknown_);
+        if (mine == vector.turned.end()) continue;
+        if (std::abs(mine->second) != 1 || (all && *all != vector.turned)) return {{unknown_, 1}};
+        all = vector.turned;
+      }
+    return all.value_or(WholeSum{{unknown_, 1}});
+  }
+
+  // A c + B s + C = 0.
+  std::optional<SolvedBlock> angle() {
+    WholeSum of = beside();
+    const int sense = of.at(unknown_);
+    E known = 0.0;
+    double alpha = 0;
+    for (const auto& [j, multiple] : of) {
+      alpha += multiple * scene_.coordinates[static_cast<std::size_t>(j)].home;
+      if (j != unknown_) known += along_.along(j).v * E(multiple);
+    }
+    const E angle = stand_in(number_, 0), c = stand_in(number_, 1), s = stand_in(number_, 2);
+    recording_graph().set_pair(angle.node(), c.node(), s.node());
+    const E row = row_where((angle - known) * E(sense));
+    const E A = slope(row, c), B = slope(row, s), C = without(row, {c, s});
+    for (const E* part : {&A, &B})
+      if (depends(*part, c) || depends(*part, s)) return std::nullopt;
+    for (const E* part : {&A, &B, &C})
+      if (depends(*part, angle)) return std::nullopt;
+    Planar direction;
+    const double side = home_.of(B) * std::cos(alpha) - home_.of(A) * std::sin(alpha);
+    if (is_zero(A)) {
+      direction.y = -(C / B);
+      direction.x = sqrt((E(1.0) - direction.y) * (E(1.0) + direction.y)) * sign(std::cos(alpha));
+    } else if (is_zero(B)) {
+      direction.x = -(C / A);
+      direction.y = sqrt((E(1.0) - direction.x) * (E(1.0) + direction.x)) * sign(std::sin(alpha));
+    } else {
+      const E R = A * A + B * B, inverse = E(1.0) / R, root = sqrt(R - C * C) * sign(side);
+      direction = {(B * root - A * C) * inverse, -((A * root + B * C) * inverse)};
+    }
+    E about = known;
+    about += start_of(scene_, unknown_).value * E(sense);
+    SolvedBlock solved;
+    solved.angles = {held_angle(of, direction, about, tag())};
+    solved.x = {(solved.angles[0].angle - known) * E(sense)};
+    return solved;
+  }
+
+  // C + B x + A x^2 = 0.
+  std::optional<SolvedBlock> length() {
+    const E x = stand_in(number_, 0);
+    const E row = row_where(x);
+    const E first = slope(row, x), second = slope(first, x);
+    if (depends(second, x)) return std::nullopt;
+    const E B = without(first, {x}), C = without(row, {x});
+    E value;
+    if (is_zero(second)) {
+      value = -(C / B);
+    } else {
+      const E root = sqrt(B * B - E(2.0) * second * C);
+      value = (root * sign(home_.of(B) + home_.of(second) * at_home()) - B) / second;
+    }
+    SolvedBlock solved;
+    solved.lengths = {{unknown_, E::held(value, tag())}};
+    solved.x = {solved.lengths[0].length};
+    return solved;
+  }
+
+  static E sign(double at_home) { return at_home < 0 ? -1.0 : 1.0; }
+
+  const Model<E>& model_;
+  const Scene& scene_;
+  const Scene::Block& block_;
+  int number_, unknown_;
+  AlongOnGraph& along_;
+  HomeValues home_;
+};
+
+}  // namespace
+
+std::optional<SolvedBlock> solve_single(const Model<E>& model, int block, AlongOnGraph& along) {
+  if (model.scene->blocks[static_cast<std::size_t>(block)].unknowns.size() != 1) return std::nullopt;
+  return Single(model, block, along).solved();
+}
+
+}  // namespace mixloop
