@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "dynamics/equations.hpp"
 #include "dynamics/procedure/procedure.hpp"
 #include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/scene/coordinate_values.hpp"
@@ -26,6 +27,16 @@ std::vector<double> values_of(const std::string& text, const char* option,
                               std::span<const Scene::Independent> coordinates, const Quantity& quantity) {
   if (text.empty()) return std::vector<double>(coordinates.size(), 0.0);
   return read_values(parse_document("[" + text + "]", option), coordinates, quantity, option);
+}
+
+/// The closures hold on the straight line from home.
+void require_closed(Equations::Workspace& watched, std::span<const double> psi, double t) {
+  if (watched.closures().accept(psi, t) != Status::ok)
+    throw InputError(
+        "branch_undecided", {"--psi"},
+        "on the straight line from home the closures are not solved up to this pose: it is out of "
+        "the mechanism's reach, or beyond a singular pose, where more than one way goes on. "
+        "Expected a pose on home's side, or another home");
 }
 
 template <class Derived>
@@ -50,11 +61,16 @@ nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<cons
   Workspace<double> ws(model);
   using In = std::span<const double>;
   const std::span all(scene->independent);
-  const auto psi = values_of(options.psi, "--psi", all, kPosition),
+  // A mechanism whose chains close stands at home; at zero it may not close.
+  const auto psi = options.psi.empty() && scene->is_closed()
+                       ? scene->home
+                       : values_of(options.psi, "--psi", all, kPosition),
              psid = values_of(options.psid, "--psid", all, kVelocity),
              tau = values_of(options.tau, "--tau", scene->motors(), kTorque);
   const double t = number_of(*parse_document(options.t, "--t"), kTime, "--t");
 
+  Equations::Workspace watched(equations_of(scene, Evaluation::interpreter, {}), parameters);
+  if (scene->is_closed()) require_closed(watched, psi, t);
   require_inertia(scene, parameters);
   if (const auto why = why_mass_is_singular(model, psi, t))
     throw InputError("singular_mass", {"--psi"}, "the mass matrix is singular at this pose: " + *why);
@@ -65,8 +81,14 @@ nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<cons
   json["mass_matrix"] = rows(mass_matrix<double>(model, In(psi), t, ws));
   json["bias"] = list(bias<double>(model, In(psi), In(psid), t, ws));
   json["q"] = list(ws.q);
+  json["n_motors"] = scene->n_u();
   json["constraint_jacobian"] = rows(ws.C);
   const auto& hand = end_effector<double>(model, In(psi), In(psid), span_of(psidd), t, ws);
+  if (scene->is_closed()) {
+    const ClosureWatch watch = watched.closures().watch();
+    json["closure_residual"] = watch.residual;
+    json["closure_condition"] = std::vector<double>(watch.conditions.begin(), watch.conditions.end());
+  }
   json["end_effector"] = {{"position", list(hand.position)},
                           {"velocity", list(hand.velocity)},
                           {"acceleration", list(hand.acceleration)},
@@ -110,7 +132,8 @@ void add_dynamics_command(CLI::App& app, int& status) {
   command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
   command
       ->add_option("--psi", options->psi,
-                   "motor positions, rad or m, e.g. 1,2,3 or '57 deg, 0, 10 cm'; zero when omitted")
+                   "motor positions, rad or m, e.g. 1,2,3 or '57 deg, 0, 10 cm'; zero when omitted, home "
+                   "where chains close")
       ->type_name("A,B,...");
   command->add_option("--psid", options->psid, "motor velocities, rad/s or m/s")->type_name("A,B,...");
   command->add_option("--tau", options->tau, "motor torques or forces, N m or N")->type_name("A,B,...");
@@ -118,7 +141,9 @@ void add_dynamics_command(CLI::App& app, int& status) {
       ->type_name("TIME");
   add_common_options(*command, *options);
   command->footer(
-      "Prints Q, C, M, h, psi'' and the end effector in SI, matrices row by row.\n"
+      "Prints Q, C, M, h, psi'' and the end effector in SI, matrices row by row; where chains close, by how "
+      "much "
+      "they are open and how near to a singular pose.\n"
       "Example:\n"
       "  mixloop dynamics scenes/mixed_loop_robot.yaml --psi 1,2,3 --psid 0.1,0.2,0.3 --set "
       "parameters.payload='3 kg'");

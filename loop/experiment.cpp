@@ -7,8 +7,9 @@
 #include <algorithm>
 
 #include "controller/controller_keys.hpp"
-#include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/procedure/singular_mass.hpp"
+#include "dynamics/scene/read_scene.hpp"
 #include "loop/base.hpp"
 #include "loop/experiment_keys.hpp"
 #include "notation/formula.hpp"
@@ -248,6 +249,10 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
 
 Scene load_scene(const NodePtr& document, const std::vector<Override>& overrides) {
   return load_scene(overridden_scene(document, overrides, false));
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return read_scene(overridden_scene(read_document(file), overrides, false));
 }
 
 Plan make_plan(const Experiment& experiment) {

@@ -55,6 +55,8 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
 /// A scene file with overrides of its entries; `parameters.NAME` sets a default.
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
 Scene load_scene(const NodePtr& document, const std::vector<Override>& overrides);
+/// The same, not put together (dynamics/scene/read_scene.hpp).
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
 /// The parts of the loop. make_plan checks the whole path first and throws InputError where it can't be run,
 /// or where a fault comes after its end.

@@ -202,18 +202,22 @@ void check_assembled(const Scene& scene, const std::vector<double>& parameters) 
 std::vector<Branch> branches(const Scene& scene, int seeds) {
   std::vector<Branch> found;
   if (scene.closures.empty()) return found;
-  Closing closing(scene, scene.default_parameters());
+  Scene sized = scene;
+  sized.size = size_of(scene);
+  refuse_no_length(sized);
+  Closing closing(sized, sized.default_parameters());
   const Closing::Part whole = closing.whole();
-  if (whole.unknowns.empty()) return found;
+  const Vector psi = closing.home_psi();
   for (const auto& way : ways_of(closing, whole, closing.home(), closing.home(), seeds)) {
     Branch branch;
-    branch.q = closing.coordinates(way.x, closing.home_psi());
+    branch.q = closing.coordinates(way.x, psi);
     branch.from_guess = way.from_guess;
-    branch.residual = way.settled.residual * scene.size;
+    const Vector rows = closing.residual(whole, way.x, psi);
+    for (int i = 0; i < closing.rows(); ++i)
+      branch.residual = std::max(branch.residual, std::abs(rows[i]) * closing.unit_of_row(i));
     branch.iterations = way.settled.iterations;
     branch.is_singular =
-        static_cast<int>(independent_rows(closing.slopes(whole, way.x, closing.home_psi())).size()) <
-        closing.unknowns();
+        static_cast<int>(independent_rows(closing.slopes(whole, way.x, psi)).size()) < closing.unknowns();
     found.push_back(std::move(branch));
   }
   return found;

@@ -22,15 +22,15 @@ void check_assembled(const Scene& scene, const std::vector<double>& parameters);
 
 /// One way in which the mechanism can be put together at home.
 struct Branch {
-  std::vector<double> q;    ///< m: all dependent coordinates, solved angles within half a turn of the guess
-  double from_guess = 0;    ///< of the solved coordinates: angles in rad, lengths over the scene's size
-  double residual = 0;      ///< the largest of the rows, m or rad
-  int iterations = 0;       ///< until it was found
-  bool is_singular = false; ///< a way that is left at no rate
+  std::vector<double> q;     ///< m: all dependent coordinates, solved angles within half a turn of the guess
+  double from_guess = 0;     ///< of the solved coordinates: angles in rad, lengths over the scene's size
+  double residual = 0;       ///< the largest of the rows, m or rad
+  int iterations = 0;        ///< until it was found
+  bool is_singular = false;  ///< a way that is left at no rate
 };
 
-/// Those that the scene's guesses and `seeds` random ones about them find, the one that is taken first, then
-/// by their distance from the guess. For a scene that is assembled, or one that read_scene gave.
+/// Those that a scene's guesses and `seeds` random ones about them find, by their distance from the guess,
+/// for a scene as read_scene gave it. Throws InputError for a distance of nothing.
 std::vector<Branch> branches(const Scene& scene, int seeds);
 
 }  // namespace mixloop

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kHolds = 1e-11;
 
-
 /// The nearest fraction of a small denominator, where it is that to round-off.
 double snapped(double value, double unit) {
   for (int q = 1; q <= 64; ++q) {
@@ -46,7 +45,7 @@ class Guess {
       // A length is no fraction of anything: only nothing is.
       guess.offset = closing.turns(u) ? snapped(guess.offset, std::numbers::pi / 12)
                      : std::abs(guess.offset) < kHolds * scene.size ? 0
-                                                                       : guess.offset;
+                                                                    : guess.offset;
     }
     for (const auto& pose : poses_) rates_.push_back(closing.rates(pose.x, pose.psi));
   }
@@ -133,6 +132,7 @@ std::vector<bool> linear_blocks(Scene& scene, Closing& closing, const std::vecto
     auto& coordinate = scene.coordinates[static_cast<std::size_t>(j)];
     coordinate.constraint = formula_of(guess.of(u), scene, coordinate.constraint, coordinate.place);
     scene.evaluation_order.insert(scene.evaluation_order.begin(), j);
+    scene.linear.push_back(j);
   }
   return linear;
 }

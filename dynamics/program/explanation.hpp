@@ -31,5 +31,7 @@ Explanation explain(const std::shared_ptr<const Scene>& scene);
 
 /// The reasons alone; see Explanation.
 std::vector<std::string> reasons_of(const std::shared_ptr<const Scene>& scene);
+/// Of them, how its closures are solved.
+std::vector<std::string> closure_reasons(const std::shared_ptr<const Scene>& scene);
 
 }  // namespace mixloop

@@ -12,6 +12,51 @@ namespace {
 
 std::string prefix_of(Purpose purpose) { return "mixloop_" + std::string(name_of(purpose)); }
 
+/// The solver of a scene's closures: corrections are repeated until they are none, as in ClosureFollower.
+void add_closures(const std::shared_ptr<const Scene>& scene, Trigonometry trigonometry, std::string& head,
+                  std::string& body) {
+  SourceStyle style;
+  style.prefix = "mixloop_closures";
+  style.trigonometry = trigonometry;
+  const Program program = trace_closures(scene);
+  body += source_of(program, style);
+  const int start = scene->start_size(), corrections = scene->corrections();
+  head += fmt::format(
+      "// mixloop_closures: input: start ({}); out: {} numbers: derivatives of the started coordinates by "
+      "psi and "
+      "t, the closures' rows, conditions, the solution ({}), corrections ({})\n",
+      start, program.outputs.size(), start, corrections);
+  if (corrections == 0) return;
+  head += fmt::format(
+      "// Where chains close, `input` goes on with a start ({} numbers: of each solved coordinate its value "
+      "and, of "
+      "an angle, cosine and sine) and `out` with the solution ({}) and the last corrections ({}, rad or m).\n"
+      "// mixloop_solve(psi, t, k, start): k of mixloop_closures; start: that of a pose nearby, solved in "
+      "place. "
+      "0, or 1 where there is no solution nearby.\n//\n",
+      start, start, corrections);
+  body += fmt::format(
+      R"(
+extern "C" int mixloop_solve(const double* psi, double t, const double* k, double* start) {{
+  double out[{}];
+  for (int repeat = 0; repeat < 8; ++repeat) {{
+    mixloop_closures(psi, psi, start, t, k, out);
+    double largest = 0;
+    for (int i = {}; i < {}; ++i) {{
+      if (!(out[i] - out[i] == 0)) return 1;
+      if (out[i] > largest) largest = out[i];
+      if (-out[i] > largest) largest = -out[i];
+    }}
+    for (int i = 0; i < {}; ++i) start[i] = out[{} + i];
+    if (largest < 1e-9) return 0;
+  }}
+  return 1;
+}}
+)",
+      program.outputs.size(), static_cast<int>(program.outputs.size()) - corrections, program.outputs.size(),
+      start, static_cast<int>(program.outputs.size()) - corrections - start);
+}
+
 }  // namespace
 
 std::string firmware_source(const std::shared_ptr<const Scene>& scene, const std::vector<Purpose>& purposes,
@@ -41,6 +86,7 @@ std::string firmware_source(const std::shared_ptr<const Scene>& scene, const std
                         traced.program.run_operations().text(), traced.program.set_up_operations().text());
     body += source_of(traced.program, style);
   }
+  if (scene->is_closed()) add_closures(scene, trigonometry, head, body);
   SourceStyle style;
   style.trigonometry = trigonometry;
   return head + "\n" + source_head(style) + "\n" + body;

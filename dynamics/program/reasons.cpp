@@ -9,6 +9,7 @@
 
 #include "dynamics/procedure/procedure.hpp"
 #include "dynamics/program/explanation.hpp"
+#include "dynamics/symbolic/closed_chains.hpp"
 #include "dynamics/symbolic/evaluation_angles.hpp"
 #include "dynamics/symbolic/harmonic_form.hpp"
 #include "dynamics/symbolic/tracer.hpp"
@@ -86,17 +87,14 @@ class FreeTree {
 bool differ(const Matrix& x, const Matrix& y) { return (x - y).norm() > 1e-12 * (x.norm() + y.norm()); }
 
 void about_constraints(const std::shared_ptr<const Scene>& scene, Graph& graph, Sentences& say) {
-  TracedInputs in(*scene);
-  const auto model = make_model<Expression>(scene, std::span<const Expression>(in.parameters));
-  Workspace<Expression> workspace(model);
-  coordinates<Expression>(model, span_of(in.psi), in.t, workspace);
+  const ClosedCoordinates closed(scene);
   bool constant = true;
   std::size_t zeros = 0;
   std::vector<NodeId> nodes;
   for (int i = 0; i < scene->m(); ++i) {
-    nodes.push_back(workspace.q[i].node());
+    nodes.push_back(closed.q(i).node());
     for (int j = 0; j < scene->n(); ++j) {
-      const Expression& c = workspace.C(i, j);
+      const Expression& c = closed.C()(i, j);
       constant = constant && c.is_number();
       zeros += c.is_number() && c.number() == 0.0;
     }
@@ -107,7 +105,8 @@ void about_constraints(const std::shared_ptr<const Scene>& scene, Graph& graph, 
   if (zeros > 0)
     say.push_back(fmt::format("{} of C's {} elements are zero.", zeros, scene->m() * scene->n()));
   const auto is_needed = needed(graph, nodes);
-  if (!is_needed[in.t.node()]) say.push_back("No constraint depends on time: no F_t, F_tt or mixed term.");
+  if (!is_needed[closed.inputs().t.node()])
+    say.push_back("No constraint depends on time: no F_t, F_tt or mixed term.");
 }
 
 // As many elements of mass matrices as may be worked out to look at each coordinate by itself.
@@ -255,7 +254,8 @@ std::vector<std::string> reasons_of(const std::shared_ptr<const Scene>& scene) {
   about_coordinates(scene, say);
   about_axes(scene, say);
   about_bodies(scene, say);
-  if_recordable(about_energy);
+  for (auto& sentence : closure_reasons(scene)) say.push_back(std::move(sentence));
+  if (!scene->is_closed()) if_recordable(about_energy);
   if (!scene->is_loaded()) say.push_back("No external loads.");
   if (!scene->parameters.empty()) {
     Sentences names;

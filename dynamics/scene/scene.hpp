@@ -145,6 +145,7 @@ struct Scene {
   std::vector<Block> blocks;
   std::vector<Step> steps;                 ///< of all coordinates, each after those it needs
   std::vector<int> started;                ///< coordinates that are solved, or wound, from a start
+  std::vector<int> linear;                 ///< coordinates whose formula was found from the closures
   std::vector<ClosureRow> redundant_rows;  ///< follow from the others, and are not solved
   std::vector<Parameter> parameters;
   std::vector<Transform> transforms;  ///< parents first

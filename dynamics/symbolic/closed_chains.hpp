@@ -73,7 +73,10 @@ class ClosedCoordinates {
  public:
   explicit ClosedCoordinates(const std::shared_ptr<const Scene>& scene);
 
+  const TracedInputs& inputs() const { return in_; }
   const ExpressionMatrix& C() const { return ws_.C; }
+  const Expression& q(int coordinate) const { return ws_.q[coordinate]; }
+  const Expression& x(int coordinate) const { return ws_.x[coordinate]; }  ///< of a solved one
   Expression by_time(int coordinate) const { return by_time_[static_cast<std::size_t>(coordinate)]; }
   /// All rows of all closures.
   std::vector<Expression> rows();
