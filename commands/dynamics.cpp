@@ -66,6 +66,7 @@ nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<cons
   json["bias"] = list(bias<double>(model, In(psi), In(psid), t, ws));
   json["q"] = list(ws.q);
   json["constraint_jacobian"] = rows(ws.C);
+  if (!scene->end_effector.named) return json;
   const auto& hand = end_effector<double>(model, In(psi), In(psid), span_of(psidd), t, ws);
   json["end_effector"] = {{"position", list(hand.position)},
                           {"velocity", list(hand.velocity)},

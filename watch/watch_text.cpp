@@ -61,6 +61,8 @@ Piece condition(const WatchView& view) {
       return {fmt::format("waiting: no COMMAND that answers tick {}", view.tick), Style::warning};
     case Condition::paused:
       return {fmt::format("paused: the plant repeats tick {}", view.tick), Style::warning};
+    case Condition::moving:
+      return {"moving, without a path", Style::good};
     case Condition::on_path:
       break;
   }
