@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"begins_late", "t,a,b,c\n0.1,1,2,3\n", 2, 1,
                  "the first sample is at 0.1 s; expected one at 0 s"},
         BadTable{"header_alone", "t,a,b,c\n", 1, 0, "no sample"}, BadTable{"empty", "", 1, 0, "no sample"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& row) { return std::string(row.param.name); });
 
 void read_for_robot(const std::string& text, const std::string& file) {
   read_controller_settings(parse_document(text, file), paper_scene());
