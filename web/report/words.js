@@ -41,6 +41,9 @@ function torques(run) {
   return list.map((x, i) => `${shown(x)}${unit(i)}`).join(', ');
 }
 
+/** Without a path there are no position errors. */
+const followsPath = (run) => run.inputs?.experiment?.duration === undefined;
+
 /** Of each independent coordinate, of a motion without a path. */
 function finalPosition(run) {
   const { final_psi: psi, position_units: units } = run.result ?? {};
@@ -61,6 +64,7 @@ export function summaryTable(runs) {
     run.result?.[key] === undefined ? null : run.result[key] === null ? never : as(run.result[key]);
   const measured = (run, key, logged) => (run.result?.[key] === undefined ? run.error[logged] : run.result[key]);
   const error = (key, logged) => (run) => {
+    if (!followsPath(run)) return null;
     const value = measured(run, key, logged);
     return value === null ? (run.result ? never : null) : mm(value);
   };
