@@ -12,10 +12,10 @@
 #include "loop/base.hpp"
 #include "loop/energy_balance.hpp"
 #include "loop/experiment_keys.hpp"
+#include "loop/free_motion.hpp"
 #include "notation/formula.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
-#include "planner/itinerary.hpp"
 #include "planner/path_keys.hpp"
 #include "plant/hardware.hpp"
 #include "plant/plant_keys.hpp"
@@ -76,20 +76,9 @@ double read_rate(const Node& node) {
   return rate;
 }
 
-/// Limits watch over a path and its plan.
-void refuse_without_path(const Mapping& limits) {
-  for (const Key& key : limit_keys().all)
-    if (const NodePtr limit = limits.find(key.name))
-      throw InputError(
-          "out_of_range", limit->place,
-          fmt::format("limits.{} is of a path, and the experiment has none; expected it beside a "
-                      "path alone",
-                      key.name));
-}
-
 void read_limits(const NodePtr& node, Experiment& experiment) {
   const Mapping entry = read_mapping(node, limit_keys());
-  if (!experiment.has_path()) return refuse_without_path(entry);
+  if (!experiment.has_path()) return refuse_limits(entry);
   if (const NodePtr limit = entry.find("position_error"))
     experiment.position_error_limit = number_of(*limit, kLength, "the position error limit");
   if (!(experiment.position_error_limit > 0))
@@ -157,60 +146,6 @@ void read_motion(const Mapping& root, Experiment& experiment) {
   experiment.path.place = duration->place;
 }
 
-/// What goes with a path alone, or without one alone. `controller`, `plant`: the entries; the second may be
-/// null.
-void check_motion(const Experiment& experiment, const NodePtr& controller, const NodePtr& plant) {
-  const auto refuse = [](const NodePtr& mapping, const char* key, const std::string& why) {
-    throw InputError("out_of_range", find_entry(*mapping, key)->place, why);
-  };
-  const ControllerSettings& settings = experiment.controller;
-  if (experiment.has_path()) {
-    if (!experiment.plant.initial_psid.empty())
-      refuse(plant, "initial_rates",
-             "a path begins at rest, and so does the move to its start; expected initial_rates beside a "
-             "duration alone");
-    const NodePtr about = find_entry(*controller, "about");
-    for (const char* key : {"psi", "psid"})
-      if (about && experiment.scene->n() == experiment.scene->n_u() && find_entry(*about, key))
-        refuse(about, key,
-               "with a path the motors' state is fed back about its reference, and there are no other "
-               "coordinates; expected no about." +
-                   std::string(key));
-    return;
-  }
-  if (has_gains(settings.law))
-    refuse(controller, "law",
-           fmt::format("the law {} follows a path, and the experiment has none; expected torque or "
-                       "state_feedback, or a path",
-                       describe(*find_entry(*controller, "law"))));
-  if (!settings.safety.start_tolerance.empty())
-    refuse(find_entry(*controller, "safety"), "start_tolerance",
-           "start_tolerance is of a path's start, and the experiment has no path; expected it beside a path "
-           "alone");
-  if (experiment.plant.automatic)
-    refuse(plant, "integrator",
-           "integrator: auto looks along a path, and the experiment has none; expected a named integrator");
-}
-
-/// A drive's own servo takes the gains of the law, where it has some.
-void settle_safe_state(const Mapping& root, Experiment& experiment) {
-  experiment.deadline.kp = experiment.controller.kp;
-  experiment.deadline.kv = experiment.controller.kv;
-  if (has_gains(experiment.controller.law)) return;
-  const NodePtr real_time = root.find("real_time");
-  const NodePtr state = real_time ? find_entry(*real_time, "safe_state") : nullptr;
-  if (!state) {
-    experiment.deadline.safe_state = SafeState::zero_torque;
-    return;
-  }
-  const SafeState asked = experiment.deadline.safe_state;
-  if (asked == SafeState::hold || asked == SafeState::damp)
-    throw InputError("out_of_range", state->place,
-                     fmt::format("the safe state {} takes kp and kv, which the controller's law has not; "
-                                 "expected zero_torque or brake",
-                                 name_of(asked)));
-}
-
 std::string described(std::span<const Scene::Independent> coordinates) {
   std::string text;
   for (const auto& coordinate : coordinates)
@@ -244,6 +179,14 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   if (const NodePtr seed = root.find("seed"))
     plant.seed = static_cast<std::uint64_t>(whole_number_of(*seed, 0, 1L << 53, "the seed"));
   check_hardware(plant, root.find("plant"), faults);
+}
+
+std::string text_of(const Path& path) {
+  std::string text;
+  for (const auto& via : path.vias)
+    text += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
+                        via.duration, via.dwell);
+  return text + fmt::format("repeat {} approach {:a}", path.repeat, path.approach.value_or(0));
 }
 
 NodePtr parameters_in(const NodePtr& section) {
@@ -345,39 +288,12 @@ Scene load_scene(const NodePtr& document, const std::vector<Override>& overrides
   return load_scene(overridden_scene(document, overrides, false));
 }
 
-namespace {
-
-std::span<const double> start_of(const Experiment& experiment) {
-  const auto& initial = experiment.plant.initial_psi;
-  return initial.empty() ? std::span<const double>(experiment.scene->home) : initial;
-}
-
-std::string text_of(const Path& path) {
-  std::string text;
-  for (const auto& via : path.vias)
-    text += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
-                        via.duration, via.dwell);
-  return text + fmt::format("repeat {} approach {:a}", path.repeat, path.approach.value_or(0));
-}
-
-Plan plan_without_path(const Experiment& experiment) {
-  const std::int64_t ticks =
-      ticks_of(*experiment.duration, experiment.rate_hz, experiment.path.place, "the duration");
-  const Eigen::Index n_u = experiment.scene->n_u();
-  PsiMotion motors{map_of(start_of(experiment)).head(n_u), Vector::Zero(n_u), Vector::Zero(n_u)};
-  if (experiment.controller.law == Law::state_feedback) {
-    motors.psi = experiment.controller.about_psi.head(n_u);
-    motors.psid = experiment.controller.about_psid.head(n_u);
-  }
-  Plan plan = Plan::without_path(motors, ticks);
-  require_faults_in_time(experiment, plan.ticks());
-  return plan;
-}
-
-}  // namespace
-
 Plan make_plan(const Experiment& experiment) {
-  if (!experiment.has_path()) return plan_without_path(experiment);
+  if (!experiment.has_path()) {
+    Plan plan = plan_without_path(experiment);
+    require_faults_in_time(experiment, plan.ticks());
+    return plan;
+  }
   const auto model = make_model<double>(experiment.scene, std::span<const double>(experiment.parameters));
   Plan::Settings settings{
       .rate_hz = experiment.rate_hz, .limits = experiment.limits, .start_psi = experiment.plant.initial_psi};

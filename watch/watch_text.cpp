@@ -98,6 +98,8 @@ void add_channels(std::vector<Line>& lines, const WatchView& view, bool whole) {
 }
 
 Line tracking(const WatchView& view) {
+  if (view.condition == Condition::moving)
+    return {{"position error  ", Style::heading}, {"none: it moves without a path", Style::quiet}};
   if (!view.position_error)
     return {{"position error  ", Style::heading},
             {"none yet: it needs the path, and TRUTH on the bus or an experiment", Style::quiet}};
