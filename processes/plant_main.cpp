@@ -60,9 +60,8 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   app.add_option("--report-fd", options.report_fd, "tell `mixloop run` over this file descriptor")->group("");
   app.footer(
-      "Publishes STATE, waits for COMMAND; start mixloop-controller and, unless the experiment goes without "
-      "a "
-      "path, mixloop-planner on the same experiment, in any order.\n"
+      "Publishes STATE, waits for COMMAND; start mixloop-controller and, unless there is no path,\n"
+      "mixloop-planner on the same experiment, in any order.\n"
       "With --realtime it waits for tick 0's COMMAND only: from then on commands have a deadline.\n"
       "Exit status: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time, 130 interrupted.");
   app.callback([&] { status = mixloop::run(options); });

@@ -254,6 +254,19 @@ TEST_F(FreeMotion, HasNoDriftToExpectWhereOthersDoWork) {
               HasSubstr("a fault changes a parameter"));
 }
 
+// It passes upright, where a motion grows by e^3.4 a second: soon it isn't there any more, and its steps are
+// fine enough all the same.
+TEST(FreeSwing, IsNotHeldAgainstAPoseThatItSoonLeaves) {
+  Experiment experiment = load_experiment(std::filesystem::path(MIXLOOP_EXPERIMENTS) / "four_bar_swing.yaml",
+                                          {{"duration", "200 s"}, {"expect", "{}"}});
+  experiment.evaluation = Evaluation::interpreter;
+  const Plan plan = make_plan(experiment);
+  RecordedPlant run(experiment, plan);
+  simulate(run, [](std::int64_t) { return true; });
+  EXPECT_THAT(review(experiment, plan, run.recorder()), testing::IsEmpty());
+  EXPECT_FALSE(step_doubt(experiment, plan));
+}
+
 // By gains that are Kp and Kv, along a path, it is that law, to the bit.
 TEST(StateFeedbackAlongAPath, IsThatLawOfWhichItHasTheGains) {
   const auto hash = [](const std::vector<Override>& overrides) {
