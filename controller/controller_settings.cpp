@@ -63,11 +63,13 @@ Matrix read_gain(const NodePtr& node, const Scene& scene) {
           fmt::format("row {} of the gain has {} values; expected {}: one for the position of each "
                       "independent coordinate, then one for its rate",
                       i + 1, values.size(), 2 * n));
-    for (std::size_t j = 0; j < 2 * n; ++j) {
-      const Quantity& error = j < n ? kPosition : kVelocity;
-      const auto& coordinate = scene.independent[j % n];
+    const auto read = [&](std::size_t j, const Quantity& error, const Scene::Independent& coordinate) {
       gain(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           number_of(*values[j], kTorque.of(scene.motors()[i]) / error.of(coordinate), "the gain");
+    };
+    for (std::size_t j = 0; j < n; ++j) {
+      read(j, kPosition, scene.independent[j]);
+      read(n + j, kVelocity, scene.independent[j]);
     }
   }
   return gain;
