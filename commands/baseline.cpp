@@ -18,6 +18,7 @@ std::map<std::string, double> measured_in(const Measures& measures) {
   std::map<std::string, double> all = {{"max_position_error", measures.max_position_error},
                                        {"final_position_error", measures.final_position_error},
                                        {"rms_position_error", measures.rms_position_error}};
+  if (measures.energy_drift) all["energy_drift"] = *measures.energy_drift;
   for (Eigen::Index i = 0; i < measures.max_torque.size(); ++i)
     all[fmt::format("max_torque[{}]", i)] = measures.max_torque[i];
   std::erase_if(all, [](const auto& one) { return !std::isfinite(one.second); });

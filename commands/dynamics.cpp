@@ -83,6 +83,7 @@ nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<cons
   json["q"] = list(ws.q);
   json["n_motors"] = scene->n_u();
   json["constraint_jacobian"] = rows(ws.C);
+  if (!scene->end_effector.named) return json;
   const auto& hand = end_effector<double>(model, In(psi), In(psid), span_of(psidd), t, ws);
   if (scene->is_closed()) {
     const ClosureWatch watch = watched.closures().watch();

@@ -24,6 +24,10 @@ void add_measures(tinyxml2::XMLElement& test, const RunFigures& run) {
   add("time_of_max_position_error", run.measures.time_of_max_position_error, "s");
   add("final_position_error", run.measures.final_position_error, "m");
   add("rms_position_error", run.measures.rms_position_error, "m");
+  if (run.measures.energy_drift) add("energy_drift", *run.measures.energy_drift, "1");
+  if (const auto& psi = run.measures.final_psi)
+    for (std::size_t i = 0; i < run.position_units.size(); ++i)
+      add(fmt::format("final_psi[{}]", i), (*psi)[static_cast<Eigen::Index>(i)], run.position_units[i]);
   for (std::size_t i = 0; i < run.torque_units.size(); ++i)
     add(fmt::format("max_torque[{}]", i), run.measures.max_torque[static_cast<Eigen::Index>(i)],
         run.torque_units[i]);

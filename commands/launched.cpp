@@ -57,8 +57,9 @@ class Run {
       overheard_.emplace(experiment, launch.bus, in_nanoseconds(launch.first_wait),
                          in_nanoseconds(launch.patience));
     children_.reserve(launch.order.size());
+    // Without a path there is nothing to plan.
     for (const auto& name : launch.order)
-      if (!absent(name))
+      if (!absent(name) && (name != "planner" || experiment.has_path()))
         children_.emplace_back(name, command(name, session, ends[1]), name == "plant" ? ends[1] : -1);
     close(ends[1]);
   }
@@ -268,6 +269,11 @@ Result launched(const Experiment& experiment, const Launch& launch, const StopSw
     throw InputError("out_of_range", {launch.experiment},
                      "plant.control is 'continuous': over the bus a torque is held from tick to tick; "
                      "expected 'held' (mixloop simulate runs both)");
+  if (!experiment.has_path() && std::ranges::count(launch.without, "planner") > 0)
+    throw InputError(
+        "no_path", {"--without"},
+        "the experiment has a duration in place of a path, and no planner to leave out; expected "
+        "controller or plant");
   const Plan plan = make_plan(experiment);
   if (launch.real_time) require_memory(experiment, plan);
   require_multicast_route(multicast_group(launch.bus.url));

@@ -39,7 +39,8 @@ struct Replayed {
 class Replay {
  public:
   Replay(const Experiment& experiment, const Plan& plan, const std::string& prefix)
-      : controller_(make_guarded_controller(experiment)),
+      : has_path_(plan.has_path()),
+        controller_(make_guarded_controller(experiment)),
         side_(controller_side(controller_, experiment, plan)),
         states_(experiment.scene->n()),
         references_(experiment.scene->n_u()),
@@ -105,7 +106,9 @@ class Replay {
     if (taken == Taken::other_config) config_ = logged.config;
     if (taken == Taken::other_session || taken == Taken::other_config || logged.seq <= latest_) return;
     const auto* state = ticks_.find<state_t>(logged.seq);
-    const auto* reference = ticks_.find<reference_t>(logged.seq - extrapolated_by(logged.flags));
+    none_.seq = logged.seq;
+    const auto* reference =
+        has_path_ ? ticks_.find<reference_t>(logged.seq - extrapolated_by(logged.flags)) : &none_;
     const bool of_the_law = (logged.flags & command_t::FLAG_WITHOUT_REFERENCE) == 0;
     if (latest_ < 0 && state) side_.begin(*state);
     latest_ = logged.seq;
@@ -141,6 +144,8 @@ class Replay {
     return command_t::FLAG_SAFE;
   }
 
+  bool has_path_;
+  reference_t none_{};  ///< without a path
   GuardedController controller_;
   ControllerSide side_;
   Inbox<state_t> states_;

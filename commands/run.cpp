@@ -61,10 +61,10 @@ int run(RunLine& options) {
     print(result);
     printed = true;
     fmt::print(
-        "\nHolding the end point; Ctrl-C ends it. To look on from another terminal, join this network "
+        "\n{}; Ctrl-C ends it. To look on from another terminal, join this network "
         "namespace:\n"
         "  nsenter --preserve-credentials --user --net --target {}\n",
-        getpid());
+        experiment.has_path() ? "Holding the end point" : "Going on past the end", getpid());
     flush_standard_output();
   };
   Result result = launched(experiment, launch, stop, at_end);
@@ -101,7 +101,7 @@ void add_run_command(CLI::App& app, int& status) {
       "--spin", launch.spin,
       "plant and controller wait awake: no wake-ups on their way, for two cores and one to spare");
   command->add_flag("--paused", launch.paused, "begin paused, at tick 0; mixloop control goes on from there");
-  command->add_flag("--hold", launch.hold, "go on holding the end point until Ctrl-C");
+  command->add_flag("--hold", launch.hold, "go on past the end until Ctrl-C, a path's end point held");
   command->add_flag("--truth", launch.truth, "publish TRUTH, which no controller may read");
   command->add_flag("--allow-faults", launch.allow_faults, "obey FAULT messages: mixloop control fault");
   command

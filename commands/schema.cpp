@@ -58,10 +58,12 @@ Json schema_of(const Keys& keys) {
   }
   Json schema = {
       {"title", keys.what}, {"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  Json all = {{"required", required}};
+  for (const std::string& one : keys.either) all["oneOf"].push_back({{"required", {one}}});
   if (keys.unless.empty())
-    schema["required"] = required;
+    schema.update(all);
   else
-    schema["anyOf"] = {{{"required", {keys.unless}}}, {{"required", required}}};
+    schema["anyOf"] = {{{"required", {keys.unless}}}, all};
   return schema;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -136,7 +137,8 @@ std::string factor(const nlohmann::json& limit) {
   return limit.is_null() ? "no limit" : fmt::format("{:.3g}", limit.get<double>());
 }
 
-void print(const nlohmann::json& one) {
+/// `on_path`: its instants are of one; else it is the state that is fed back about, and there is one column.
+void print(const nlohmann::json& one, bool on_path) {
   if (one.contains("error")) {
     fmt::print("\n{}: impossible: {}\n", one.at("name").get<std::string>(),
                one["error"]["message"].get<std::string>());
@@ -146,16 +148,23 @@ void print(const nlohmann::json& one) {
   for (const auto& warning : one.at("warnings")) fmt::print("  warning: {}\n", warning.get<std::string>());
   const auto& start = one.at("at_start");
   const auto& path = one.at("along_path");
-  fmt::print("  {:<44}{:>14}{:>14}  at\n", "", "at the start", "on the path");
-  fmt::print("  {:<44}{:>14}{:>14}  {:.3f} s\n", "spectral radius a tick (stable below 1)",
-             fixed(start["spectral_radius"].get<double>(), 6),
-             fixed(path["spectral_radius"].get<double>(), 6), path["time_of_spectral_radius"].get<double>());
-  fmt::print("  {:<44}{:>14}{:>14}  {:.3f} s\n", "longest command delay at this tick",
-             milliseconds(start["longest_delay"]), milliseconds(path["longest_delay"]),
-             path["time_of_longest_delay"].get<double>());
-  fmt::print("  {:<44}{:>14}{:>14}  {:.3f} s\n", "longest tick at this delay",
-             milliseconds(start["longest_tick"]), milliseconds(path["longest_tick"]),
-             path["time_of_longest_tick"].get<double>());
+  const auto row = [&](const char* what, const std::string& at_start, const std::string& along,
+                       const char* when) {
+    if (on_path)
+      fmt::print("  {:<44}{:>14}{:>14}  {:.3f} s\n", what, at_start, along, path[when].get<double>());
+    else
+      fmt::print("  {:<44}{:>14}\n", what, at_start);
+  };
+  if (on_path)
+    fmt::print("  {:<44}{:>14}{:>14}  at\n", "", "at the start", "on the path");
+  else
+    fmt::print("  about the state that is fed back about\n");
+  row("spectral radius a tick (stable below 1)", fixed(start["spectral_radius"].get<double>(), 6),
+      fixed(path["spectral_radius"].get<double>(), 6), "time_of_spectral_radius");
+  row("longest command delay at this tick", milliseconds(start["longest_delay"]),
+      milliseconds(path["longest_delay"]), "time_of_longest_delay");
+  row("longest tick at this delay", milliseconds(start["longest_tick"]), milliseconds(path["longest_tick"]),
+      "time_of_longest_tick");
   fmt::print("  {:<44}{:>14}\n", "longest tick without delay",
              milliseconds(start["longest_tick_without_delay"]));
   fmt::print("  {:<44}{:>14}\n", "longest RK4 step, control continuous",
@@ -189,6 +198,26 @@ bool contradicts(const nlohmann::json& confirmed) {
   });
 }
 
+/// Of a motion without a path: that the state which is fed back about is none to stay in.
+std::string not_at_rest(const Experiment& experiment, const Plan& plan) {
+  const ControllerSettings& settings = experiment.controller;
+  const PsiMotion at = wanted_state(settings, *experiment.scene, plan.at(0));
+  Vector needed(experiment.scene->n());
+  Equations::Workspace dynamics(
+      equations_of(experiment.scene, experiment.evaluation, {Purpose::inverse_dynamics}),
+      experiment.plant_parameters);
+  dynamics.evaluate(Purpose::inverse_dynamics, {span_of(at.psi), span_of(at.psid), span_of(at.psidd), 0},
+                    span_of(needed));
+  const Vector given = settings.about_torque, of_motors = needed.head(given.size());
+  const double size = 1e-9 + of_motors.cwiseAbs().maxCoeff();
+  if (at.psid.isZero(0) && (given - of_motors).cwiseAbs().maxCoeff() <= 1e-3 * size) return {};
+  return fmt::format(
+      "the state that is fed back about is no rest: it takes a torque of [{:.6g}] and has "
+      "[{:.6g}] in about.torque; the loop comes to rest elsewhere, if it does, and was looked at "
+      "here",
+      fmt::join(of_motors, ", "), fmt::join(given, ", "));
+}
+
 class Study {
  public:
   explicit Study(const StabilityLine& options) : options_(options) {}
@@ -200,6 +229,7 @@ class Study {
                            {"tick", 1 / nominal.rate_hz},
                            {"command_delay", nominal.plant.command_delay},
                            {"control", nominal.plant.continuous ? "continuous" : "held"},
+                           {"along", nominal.has_path() ? "path" : "state"},
                            {"warnings", nlohmann::json::array()},
                            {"cases", nlohmann::json::array()}};
     if (Hardware::needed(nominal.plant)) {
@@ -273,6 +303,9 @@ class Study {
         {"confirmed", nlohmann::json::object()}};
     for (const auto& [key, value] : variant) json["set"][key] = value;
     if (doubt) json["warnings"].push_back(doubt->text);
+    if (!plan.has_path())
+      if (const std::string off = not_at_rest(experiment, plan); !off.empty())
+        json["warnings"].push_back(off);
     if (!options_.no_confirmation)
       json["confirmed"] = confirmation(experiment, plan, start, instants.sampling);
     if (contradicts(json["confirmed"])) {
@@ -308,7 +341,7 @@ int run(const StabilityLine& options) {
     fmt::print("{}: tick {:.3f} ms, command delay {:.3f} ms, control {}\n",
                result["experiment"].get<std::string>(), result["tick"].get<double>() * 1e3,
                result["command_delay"].get<double>() * 1e3, result["control"].get<std::string>());
-    for (const auto& one : result["cases"]) print(one);
+    for (const auto& one : result["cases"]) print(one, result["along"] == "path");
     if (!options.picture.empty() && !interrupted) fmt::print("\ndrawn in {}\n", options.picture);
   }
   if (interrupted) {

@@ -108,6 +108,15 @@ Result tracked_or_error(const SuiteRun& run, const TrackLine& options, const Sto
   }
 }
 
+/// What there is to say of a motion without a path.
+std::string free_motion(const Measures& measures) {
+  std::string text = "final";
+  for (const double psi : measures.final_psi.value_or(Vector())) text += " " + fixed(psi, 7);
+  if (measures.energy_drift && !std::isnan(*measures.energy_drift))
+    text += fmt::format(", energy drift {:.3g}", *measures.energy_drift);
+  return text;
+}
+
 void print_line(const Result& result) {
   if (const auto& error = result.error; error && !result.run) {
     fmt::print("{:<12} {:<28} {}{}{}\n",
@@ -116,7 +125,8 @@ void print_line(const Result& result) {
     return;
   }
   const Measures& measures = result.run->measures;
-  std::string text = measures.diverged_at ? fmt::format("diverged at {:.6g} s", *measures.diverged_at)
+  std::string text = measures.diverged_at     ? fmt::format("diverged at {:.6g} s", *measures.diverged_at)
+                     : !measures.follows_path ? free_motion(measures)
                      : std::isnan(measures.max_position_error)
                          ? "its position error was never measured"
                          : fmt::format("max {} mm, final {} mm", fixed(measures.max_position_error * 1e3, 7),

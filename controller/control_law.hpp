@@ -21,9 +21,11 @@ class Controller {
   const Scene& scene() const { return dynamics_.scene(); }
 
  private:
+  void feed_back(const Measurement& now, const Reference& desired, std::span<double> tau);
+
   Equations::Workspace dynamics_;
   ControllerSettings settings_;
-  Vector psi_, psid_;          ///< n: where the model is evaluated
+  Vector psi_, psid_;          ///< n: where the model is evaluated, or how far off the state is
   Vector feedforward_, bias_;  ///< n_u, n
 };
 

@@ -32,11 +32,15 @@ Feedback feedback(const ControllerSettings& settings, Equations::Workspace& mode
     return inverse_dynamics_slope(model, {at.psi, psid, psidd}, t);
   };
   Feedback result{Matrix::Zero(n_u, 2 * n), Matrix::Zero(n_u, 2 * n)};
+  if (settings.law == Law::state_feedback) result.proportional = -settings.gain;
+  if (!has_gains(settings.law)) return result;
   result.proportional.leftCols(n_u) = -Matrix(settings.kp.asDiagonal());
   result.proportional.middleCols(n, n_u) = -Matrix(settings.kv.asDiagonal());
   if (settings.feedforward_at == FeedforwardAt::desired) return result;
   switch (settings.law) {
     case Law::pd:
+    case Law::torque:
+    case Law::state_feedback:
       break;
     case Law::pd_gravity:  // h(psi, 0)
       result.model.leftCols(n) = slope(zero, zero).by_psi.topRows(n_u);

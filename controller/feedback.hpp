@@ -20,7 +20,8 @@ struct InverseDynamicsSlope {
 InverseDynamicsSlope inverse_dynamics_slope(Equations::Workspace& dynamics, const PsiMotion& at, double t);
 
 /// What a control law answers to small deviations from its reference: d tau = gain (d psi, d psid).
-/// `proportional` scales with Kp and Kv, `model` comes from the equations of motion at the measured state.
+/// `proportional` scales with Kp and Kv, or K, `model` comes from the equations of motion at the measured
+/// state.
 struct Feedback {
   Matrix proportional, model;  ///< n_u x 2n each
 

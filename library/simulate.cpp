@@ -36,6 +36,7 @@ Result driven(const Experiment& experiment, const Drive& drive) {
       append(result.psid, recorder.psid(k));
       append(result.tau, recorder.commanded(k));
     }
+    result.energy_drift = measures.energy_drift;
     return result;
   });
 }

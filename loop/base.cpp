@@ -49,7 +49,7 @@ NodePtr moved(const NodePtr& document, const std::filesystem::path& steps) {
   if (!controller) return changed;
   auto result = copy_of(*changed);
   std::ranges::find(result->entries, "controller", &Node::Entry::key)->value =
-      with_path_from(controller, "scene", steps);
+      with_path_from(with_path_from(controller, "scene", steps), "file", steps);
   return result;
 }
 

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "dynamics/scene/coordinate_values.hpp"
 #include "loop/experiment_keys.hpp"
 #include "notation/value.hpp"
+#include "plant/read_each.hpp"
 
 namespace mixloop {
 namespace {
@@ -19,6 +22,8 @@ struct NamedMeasure {
 constexpr NamedMeasure kErrors[] = {{"max_position_error", &Measures::max_position_error},
                                     {"final_position_error", &Measures::final_position_error},
                                     {"rms_position_error", &Measures::rms_position_error}};
+
+constexpr const char *kFinal = "final_psi", *kDrift = "energy_drift";
 
 [[noreturn]] void refuse(const Place& place, const std::string& why) {
   throw InputError("out_of_range", place, why);
@@ -37,6 +42,10 @@ void check_bound(const Expectation::Bound& bound, const Node& node) {
                        bound.least, bound.most, bound.name));
 }
 
+bool is_error(const Expectation::Bound& bound) {
+  return std::ranges::find(kErrors, bound.name, &NamedMeasure::name) != std::end(kErrors);
+}
+
 /// Neither the last error nor the mean one is above the largest, and none of a run that has not diverged
 /// above the limit.
 void check_possible(const Expectation& expectation, const Mapping& entry, double position_error_limit) {
@@ -46,7 +55,7 @@ void check_possible(const Expectation& expectation, const Mapping& entry, double
     if (bound.name == "max_position_error" && bound.most < most)
       most = bound.most, limit = "expect.max_position_error";
   for (const auto& bound : expectation.bounds)
-    if (!bound.motor && bound.least > most)
+    if (is_error(bound) && bound.least > most)
       refuse(entry.at(bound.name)->place,
              fmt::format("{} is expected to be {:g} m or more, and {} lets it be {:g} m at most; expected "
                          "bounds that a run can meet",
@@ -62,9 +71,75 @@ void check_divergence(const Expectation& expectation, const Mapping& entry) {
            "'safe_state'");
   if (!expectation.bounds.empty())
     refuse(
-        entry.at(expectation.bounds.front().name)->place,
+        entry.at(expectation.bounds.front().name == kFinal ? "final" : expectation.bounds.front().name)
+            ->place,
         fmt::format("beside 'diverges: true' no bound on {} is judged; expected either 'diverges' or bounds",
                     expectation.bounds.front().name));
+}
+
+void read_error_bounds(const Mapping& entry, bool has_path, Expectation& expectation) {
+  for (const auto& known : kErrors) {
+    const NodePtr bound = entry.find(known.name);
+    if (!bound) continue;
+    if (!has_path)
+      refuse(bound->place,
+             fmt::format("without a path there is no {}; expected bounds on final, energy_drift "
+                         "or max_torque",
+                         known.name));
+    const auto values = numbers_of(bound, kLength, 0, known.name);
+    if (values.empty() || values.size() > 2)
+      throw InputError(
+          "wrong_size", bound->place,
+          fmt::format("{} values for {}; expected a bound or [least, most]", values.size(), known.name));
+    expectation.bounds.push_back(
+        {known.name, std::nullopt, values.size() == 2 ? values[0] : 0.0, values.back(), "m"});
+    check_bound(expectation.bounds.back(), *bound);
+  }
+}
+
+void read_torque_bounds(const NodePtr& torque, const Scene& scene, Expectation& expectation) {
+  const auto items = items_of(torque, "max_torque");
+  if (items.size() != scene.motors().size())
+    throw InputError("wrong_size", torque->place,
+                     fmt::format("max_torque has {} values; expected {}", items.size(), scene.n_u()));
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto& motor = scene.motors()[i];
+    expectation.bounds.push_back({"max_torque", static_cast<int>(i), 0.0,
+                                  number_of(*items[i], kTorque.of(motor), "max_torque"),
+                                  torque_unit(motor.linear)});
+    check_bound(expectation.bounds.back(), *items[i]);
+  }
+}
+
+/// Where the independent coordinates shall be at the end, each to its tolerance.
+void read_final_bounds(const Mapping& entry, const Scene& scene, Expectation& expectation) {
+  const NodePtr final = entry.find("final"), tolerance = entry.find("tolerance");
+  if (!final && !tolerance) return;
+  if (!final || !tolerance)
+    throw InputError("missing_key", (final ? final : tolerance)->place,
+                     final ? "what is expected lacks 'tolerance', to which 'final' is to hold"
+                           : "what is expected has a tolerance, and lacks 'final', which it is of");
+  const auto psi = read_values(final, scene.independent, kPosition, "the final position");
+  const auto within =
+      read_each(tolerance, scene.independent, kPosition, {0, kNoLimit, "0 or more"}, "the tolerance");
+  for (std::size_t i = 0; i < psi.size(); ++i)
+    expectation.bounds.push_back({kFinal, static_cast<int>(i), psi[i] - within[i], psi[i] + within[i],
+                                  position_unit(scene.independent[i].linear)});
+}
+
+void read_drift_bound(const Mapping& entry, Expectation& expectation) {
+  const NodePtr drift = entry.find(kDrift);
+  if (!drift) return;
+  expectation.bounds.push_back({kDrift, std::nullopt, 0.0, number_of(*drift, kPure, "the energy drift"), ""});
+  check_bound(expectation.bounds.back(), *drift);
+}
+
+/// "0.1 to 0.2 rad", "at most 13 mm".
+std::string expected_text(const Expectation::Bound& bound, double scale, const std::string& unit) {
+  if (bound.name == kFinal) return fmt::format("{:.12g} to {:.12g}{}", bound.least, bound.most, unit);
+  if (bound.least > 0)
+    return fmt::format("{:.6g} to {:.6g}{}", bound.least * scale, bound.most * scale, unit);
+  return fmt::format("at most {:.6g}{}", bound.most * scale, unit);
 }
 
 }  // namespace
@@ -75,50 +150,39 @@ const Keys& expectation_keys() {
                           {"final_position_error", form::numbers()},
                           {"rms_position_error", form::numbers()},
                           {"max_torque", form::numbers()},
+                          {"final", form::numbers()},
+                          {"tolerance", form::numbers()},
+                          {"energy_drift", form::number()},
                           {"diverges", form::flag()},
                           {"safe_state", form::flag()}}};
   return keys;
 }
 
 double Expectation::Bound::value_in(const Measures& measures) const {
+  if (name == kFinal) return measures.final_psi ? (*measures.final_psi)[*motor] : kNeverMeasured;
+  if (name == kDrift) return measures.energy_drift.value_or(kNeverMeasured);
   if (motor) return measures.max_torque[*motor];
   for (const auto& known : kErrors)
     if (name == known.name) return measures.*known.value;
   return kNeverMeasured;
 }
 
-Expectation read_expectation(const NodePtr& node, const Scene& scene, double position_error_limit) {
+bool Expectation::bounds_on(std::string_view name) const {
+  return std::ranges::find(bounds, name, &Bound::name) != bounds.end();
+}
+
+Expectation read_expectation(const NodePtr& node, const Scene& scene,
+                             std::optional<double> position_error_limit) {
   const Mapping entry = read_mapping(node, expectation_keys());
   Expectation expectation;
-  for (const auto& known : kErrors) {
-    const NodePtr bound = entry.find(known.name);
-    if (!bound) continue;
-    const auto values = numbers_of(bound, kLength, 0, known.name);
-    if (values.empty() || values.size() > 2)
-      throw InputError(
-          "wrong_size", bound->place,
-          fmt::format("{} values for {}; expected a bound or [least, most]", values.size(), known.name));
-    expectation.bounds.push_back(
-        {known.name, std::nullopt, values.size() == 2 ? values[0] : 0.0, values.back(), "m"});
-    check_bound(expectation.bounds.back(), *bound);
-  }
-  if (const NodePtr torque = entry.find("max_torque")) {
-    const auto items = items_of(torque, "max_torque");
-    if (items.size() != scene.motors().size())
-      throw InputError("wrong_size", torque->place,
-                       fmt::format("max_torque has {} values; expected {}", items.size(), scene.n_u()));
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      const auto& motor = scene.motors()[i];
-      expectation.bounds.push_back({"max_torque", static_cast<int>(i), 0.0,
-                                    number_of(*items[i], kTorque.of(motor), "max_torque"),
-                                    torque_unit(motor.linear)});
-      check_bound(expectation.bounds.back(), *items[i]);
-    }
-  }
+  read_error_bounds(entry, position_error_limit.has_value(), expectation);
+  if (const NodePtr torque = entry.find("max_torque")) read_torque_bounds(torque, scene, expectation);
+  read_final_bounds(entry, scene, expectation);
+  read_drift_bound(entry, expectation);
   if (const NodePtr diverges = entry.find("diverges")) expectation.diverges = flag_of(*diverges, "diverges");
   if (const NodePtr safe = entry.find("safe_state")) expectation.safe_state = flag_of(*safe, "safe_state");
   check_divergence(expectation, entry);
-  check_possible(expectation, entry, position_error_limit);
+  if (position_error_limit) check_possible(expectation, entry, *position_error_limit);
   return expectation;
 }
 
@@ -135,15 +199,13 @@ std::vector<std::string> missed(const Expectation& expectation, const Measures& 
   for (const auto& bound : expectation.bounds) {
     const double value = bound.value_in(measures);
     if (bound.holds(value)) continue;
-    const bool torque = bound.motor.has_value();
-    const double scale = torque ? 1 : 1e3;
-    const std::string unit = torque ? bound.unit : "mm";
-    const std::string name = torque ? fmt::format("{}[{}]", bound.name, *bound.motor) : bound.name;
-    const std::string found =
-        std::isnan(value) ? "was never measured" : fmt::format("is {:.6g} {}", value * scale, unit);
-    const std::string expected =
-        bound.least > 0 ? fmt::format("{:.6g} to {:.6g} {}", bound.least * scale, bound.most * scale, unit)
-                        : fmt::format("at most {:.6g} {}", bound.most * scale, unit);
+    const double scale = is_error(bound) ? 1e3 : 1;
+    const std::string unit = is_error(bound) ? " mm" : bound.unit.empty() ? "" : " " + bound.unit;
+    const std::string name = bound.motor ? fmt::format("{}[{}]", bound.name, *bound.motor) : bound.name;
+    const std::string found = std::isnan(value)      ? "was never measured"
+                              : bound.name == kFinal ? fmt::format("is {:.12g}{}", value, unit)
+                                                     : fmt::format("is {:.6g}{}", value * scale, unit);
+    const std::string expected = expected_text(bound, scale, unit);
     lines.push_back(fmt::format("{} {}; expected {}", name, found, expected));
   }
   return lines;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dynamics/scene/scene.hpp"
@@ -15,9 +16,9 @@ namespace mixloop {
 struct Expectation {
   struct Bound {
     std::string name;          ///< of the measure, e.g. "max_position_error"
-    std::optional<int> motor;  ///< which element of a measure that has one a motor
+    std::optional<int> motor;  ///< which element of a measure that has one a motor, or a coordinate
     double least = 0, most = 0;
-    std::string unit;  ///< of the two and of what is measured, in SI
+    std::string unit;  ///< of the two and of what is measured, in SI; empty: a pure number
     double value_in(const Measures& measures) const;
     /// Not of what was never measured.
     bool holds(double value) const { return value >= least && value <= most; }
@@ -25,12 +26,17 @@ struct Expectation {
   std::vector<Bound> bounds;
   bool diverges = false;
   bool safe_state = false;  ///< in real time: the plant goes into its safe state
+
+  /// Whether there is a bound on this measure.
+  bool bounds_on(std::string_view name) const;
 };
 
-/// Reads `{max_position_error: 13.3 mm, max_torque: [2, 5, 3], diverges: true}`; a bound may be a pair
-/// [least, most] where a measure is a single number. Throws InputError, also for what no run can show whose
-/// position error stays below `position_error_limit` (m) until it has diverged.
-Expectation read_expectation(const NodePtr& node, const Scene& scene, double position_error_limit);
+/// Reads `{max_position_error: 13.3 mm, max_torque: [2, 5, 3], final: [0.1 rad], tolerance: 1e-6,
+/// energy_drift: 1e-9, diverges: true}`; a bound may be a pair [least, most] where a measure is a single
+/// number. Throws InputError, also for what no run can show whose position error stays below
+/// `position_error_limit` (m) until it has diverged; none: it has no path, and no position error.
+Expectation read_expectation(const NodePtr& node, const Scene& scene,
+                             std::optional<double> position_error_limit);
 
 /// What was missed, a line each; empty where all is held.
 std::vector<std::string> missed(const Expectation& expectation, const Measures& measures);

@@ -11,7 +11,9 @@
 #include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/scene/read_scene.hpp"
 #include "loop/base.hpp"
+#include "loop/energy_balance.hpp"
 #include "loop/experiment_keys.hpp"
+#include "loop/free_motion.hpp"
 #include "notation/formula.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
@@ -77,6 +79,7 @@ double read_rate(const Node& node) {
 
 void read_limits(const NodePtr& node, Experiment& experiment) {
   const Mapping entry = read_mapping(node, limit_keys());
+  if (!experiment.has_path()) return refuse_limits(entry);
   if (const NodePtr limit = entry.find("position_error"))
     experiment.position_error_limit = number_of(*limit, kLength, "the position error limit");
   if (!(experiment.position_error_limit > 0))
@@ -97,7 +100,13 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
 }
 
 Expectation read_expectation_of(const Experiment& experiment, const NodePtr& node) {
-  Expectation expect = read_expectation(node, *experiment.scene, experiment.position_error_limit);
+  std::optional<double> limit;
+  if (experiment.has_path()) limit = experiment.position_error_limit;
+  Expectation expect = read_expectation(node, *experiment.scene, limit);
+  if (const std::string why = other_work_in(experiment); expect.bounds_on("energy_drift") && !why.empty())
+    throw InputError("out_of_range", find_entry(*node, "energy_drift")->place,
+                     "energy and the motors' work don't balance: " + why +
+                         "; expected a bound on energy_drift where nothing else does work");
   if (expect.safe_state && experiment.plant.continuous)
     throw InputError(
         "out_of_range", find_entry(*node, "safe_state")->place,
@@ -114,9 +123,28 @@ void require_faults_in_time(const Experiment& experiment, std::int64_t last_tick
     throw InputError(
         "out_of_range", find_entry(*faults->items[i], "at")->place,
         fmt::format(
-            "a fault at {:g} s, after the run's end at {:g} s; expected an earlier one, or a longer path",
-            scheduled[i].at, static_cast<double>(last_tick) / experiment.rate_hz));
+            "a fault at {:g} s, after the run's end at {:g} s; expected an earlier one, or a longer {}",
+            scheduled[i].at, static_cast<double>(last_tick) / experiment.rate_hz,
+            experiment.has_path() ? "path" : "duration"));
   }
+}
+
+double read_duration(const Node& node) {
+  const double seconds = number_of(node, kTime, "the duration");
+  if (!(seconds > 0))
+    throw InputError("out_of_range", node.place,
+                     fmt::format("the duration is {} s; expected more than 0", seconds));
+  return seconds;
+}
+
+void read_motion(const Mapping& root, Experiment& experiment) {
+  if (const NodePtr path = root.find("path")) {
+    experiment.path = read_path(path, *experiment.scene);
+    return;
+  }
+  const NodePtr duration = root.at("duration");
+  experiment.duration = read_duration(*duration);
+  experiment.path.place = duration->place;
 }
 
 std::string described(std::span<const Scene::Independent> coordinates) {
@@ -154,6 +182,14 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   check_hardware(plant, root.find("plant"), faults);
 }
 
+std::string text_of(const Path& path) {
+  std::string text;
+  for (const auto& via : path.vias)
+    text += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
+                        via.duration, via.dwell);
+  return text + fmt::format("repeat {} approach {:a}", path.repeat, path.approach.value_or(0));
+}
+
 NodePtr parameters_in(const NodePtr& section) {
   return section ? find_entry(*section, "parameters") : nullptr;
 }
@@ -172,7 +208,8 @@ const Keys& experiment_keys() {
                          {{"base", form::text()},
                           {"scene", form::text(), kRequired},
                           {"rate", form::number()},
-                          {"path", form::mapping(path_keys), kRequired},
+                          {"path", form::mapping(path_keys)},
+                          {"duration", form::number()},
                           {"controller", form::mapping(controller_keys), kRequired},
                           {"plant", form::mapping(plant_keys)},
                           {"real_time", form::mapping(real_time_keys)},
@@ -182,7 +219,8 @@ const Keys& experiment_keys() {
                           {"faults", form::list(form::mapping(fault_keys))},
                           {"seed", form::whole()},
                           {"cases", form::named(form::any())}},
-                         "base"};
+                         "base",
+                         {"path", "duration"}};
   return keys;
 }
 
@@ -210,10 +248,10 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   experiment.scene = std::make_shared<const Scene>(load_scene(experiment.scene_document));
   const Scene& scene = *experiment.scene;
   if (const NodePtr rate = root.find("rate")) experiment.rate_hz = read_rate(*rate);
-  experiment.path = read_path(root.at("path"), scene);
+  read_motion(root, experiment);
 
   const NodePtr controller = root.at("controller");
-  experiment.controller = read_controller_settings(controller, scene);
+  experiment.controller = read_controller_settings(controller, scene, base);
   const NodePtr other_scene = find_entry(*controller, "scene");
   experiment.controller_scene =
       other_scene ? std::make_shared<const Scene>(load_scene(scene_document_at(*other_scene, base, {})))
@@ -224,8 +262,8 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   if (plant) experiment.plant = read_plant_settings(plant, scene, experiment.rate_hz);
   if (const NodePtr real_time = root.find("real_time"))
     experiment.deadline = read_deadline_settings(real_time);
-  experiment.deadline.kp = experiment.controller.kp;
-  experiment.deadline.kv = experiment.controller.kv;
+  settle_safe_state(root, experiment);
+  check_motion(experiment, controller, plant);
   if (experiment.plant.continuous && !experiment.controller.safety.torque_rate_limit.empty())
     throw InputError(
         "out_of_range", find_entry(*controller, "safety")->place,
@@ -256,6 +294,11 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
 }
 
 Plan make_plan(const Experiment& experiment) {
+  if (!experiment.has_path()) {
+    Plan plan = plan_without_path(experiment);
+    require_faults_in_time(experiment, plan.ticks());
+    return plan;
+  }
   const auto model = make_model<double>(experiment.scene, std::span<const double>(experiment.parameters));
   Plan::Settings settings{
       .rate_hz = experiment.rate_hz, .limits = experiment.limits, .start_psi = experiment.plant.initial_psi};
@@ -271,10 +314,12 @@ Plan make_plan(const Experiment& experiment) {
 }
 
 Controller make_controller(const Experiment& experiment) {
-  return Controller(
-      {equations_of(experiment.controller_scene, experiment.evaluation, {Purpose::mass_times, Purpose::bias}),
-       experiment.controller_parameters},
-      experiment.controller);
+  const auto& scene = experiment.controller_scene;
+  const auto equations =
+      has_gains(experiment.controller.law)
+          ? equations_of(scene, experiment.evaluation, {Purpose::mass_times, Purpose::bias})
+          : equations_of(scene, experiment.evaluation, {});
+  return Controller({equations, experiment.controller_parameters}, experiment.controller);
 }
 
 GuardedController make_guarded_controller(const Experiment& experiment) {
@@ -298,14 +343,14 @@ Experiment with_integrator_settled(Experiment experiment, const Plan& plan) {
 Plant make_plant(const Experiment& experiment, const Plan& plan) {
   if (experiment.plant.automatic && !experiment.integrator_choice)
     return make_plant(with_integrator_settled(experiment, plan), plan);
-  const auto& initial = experiment.plant.initial_psi;
-  Vector start = map_of(std::span(initial.empty() ? experiment.scene->home : initial));
-  start.head(plan.n_u()) = plan.at(0).psi;
+  Vector start = map_of(start_of(experiment));
+  if (plan.has_path()) start.head(plan.n_u()) = plan.at(0).psi;
   PlantSettings settings = experiment.plant;
   settings.parameters = experiment.plant_parameters;
   Equations::Workspace dynamics(plant_equations(experiment.scene, experiment.evaluation, settings),
                                 experiment.plant_parameters);
-  return Plant(std::move(dynamics), std::move(settings), experiment.rate_hz, span_of(std::as_const(start)));
+  return Plant(std::move(dynamics), settings, experiment.rate_hz, span_of(std::as_const(start)),
+               settings.initial_psid);
 }
 
 DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan) {
@@ -315,11 +360,12 @@ DeadlinePlant make_deadline_plant(const Experiment& experiment, const Plan& plan
 
 std::array<std::string, 4> common_ground(const Experiment& experiment) {
   std::string path, parameters;
-  for (const auto& via : experiment.path.vias)
-    path += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
-                        via.duration, via.dwell);
-  path +=
-      fmt::format("repeat {} approach {:a}", experiment.path.repeat, experiment.path.approach.value_or(0));
+  if (!experiment.has_path()) {
+    path = fmt::format("duration {:a} rates", *experiment.duration);
+    for (const double rate : experiment.plant.initial_psid) path += fmt::format(" {:a}", rate);
+  } else {
+    path = text_of(experiment.path);
+  }
   for (const double limit : experiment.limits.velocity) path += fmt::format(" {:a}", limit);
   path += " from";
   for (const double psi : experiment.plant.initial_psi) path += fmt::format(" {:a}", psi);

@@ -32,7 +32,8 @@ struct Experiment {
   std::shared_ptr<const Scene> scene;             ///< of the plant and the planner
   std::shared_ptr<const Scene> controller_scene;  ///< what the controller takes the robot for
   double rate_hz = 1000;
-  Path path;
+  Path path;                       ///< where there is none, but for its place: that of the duration
+  std::optional<double> duration;  ///< s: of a motion without a path
   ControllerSettings controller;
   PlantSettings plant;
   DeadlineSettings deadline;       ///< in real time
@@ -44,6 +45,8 @@ struct Experiment {
   PlanLimits limits;
   Expectation expect;
   Evaluation evaluation = Evaluation::machine_code;  ///< of the equations of motion, everywhere
+
+  bool has_path() const { return !duration; }
 };
 
 /// Reads an experiment with overrides on top (`scene.` before an entry of the scene's own). Throws
@@ -59,7 +62,8 @@ Scene load_scene(const NodePtr& document, const std::vector<Override>& overrides
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
 /// The parts of the loop. make_plan checks the whole path first and throws InputError where it can't be run,
-/// or where a fault comes after its end.
+/// or where a fault comes after its end. Without a path the motors' reference at every tick is where the
+/// plant starts, at rest, or what `state_feedback` feeds back about.
 Plan make_plan(const Experiment& experiment);
 Controller make_controller(const Experiment& experiment);
 GuardedController make_guarded_controller(const Experiment& experiment);

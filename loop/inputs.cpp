@@ -28,7 +28,8 @@ namespace {
 
 /// What is watched over or can't be passed, in SI, a value a motor; those that there are.
 nlohmann::ordered_json limits_json(const Experiment& experiment) {
-  nlohmann::ordered_json json = {{"position_error", experiment.position_error_limit}};
+  auto json = nlohmann::ordered_json::object();
+  if (experiment.has_path()) json["position_error"] = experiment.position_error_limit;
   const auto add = [&](const char* key, const auto& values) {
     if (!values.empty()) json[key] = values;
   };

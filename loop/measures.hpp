@@ -16,6 +16,7 @@ inline constexpr double kNeverMeasured = std::numeric_limits<double>::quiet_NaN(
 /// What a run of an experiment is judged by: its ticks before the safe state, of position errors those from
 /// the start of the path on.
 struct Measures {
+  bool follows_path = true;                            ///< without a path there are no position errors
   double max_position_error = kNeverMeasured;          ///< m
   double time_of_max_position_error = kNeverMeasured;  ///< s
   double final_position_error = kNeverMeasured;        ///< m, at the last tick
@@ -26,6 +27,10 @@ struct Measures {
   std::optional<double> diverged_at;  ///< s
   std::optional<double> safe_at;      ///< s: from there on the plant was in its safe state, and not judged
   std::optional<double> interrupted_at;  ///< s
+  std::optional<Vector> final_psi;       ///< n, at the last tick; without a path, or where it is expected
+  /// The largest |E - E_0 - W| of all ticks over the largest |E|: E is kinetic energy and potential, W the
+  /// motors' work. Without a path or where it is expected, of what keeps its energy (energy_balance.hpp).
+  std::optional<double> energy_drift;
 };
 
 }  // namespace mixloop

@@ -21,7 +21,7 @@ namespace {
   throw InputError(
       "too_large", {},
       fmt::format("the record takes {:.3g} GB, more than is free in memory, and {} has no room for "
-                  "it ({}); expected a shorter path, fewer laps, a lower rate, or TMPDIR on a "
+                  "it ({}); expected a shorter run, fewer laps, a lower rate, or TMPDIR on a "
                   "larger disk",
                   1e-9 * static_cast<double>(bytes), RecordRows::folder(), why));
 }

@@ -27,7 +27,8 @@ std::string record_of(const Experiment& experiment, const Plan& plan, double byt
 
 [[noreturn]] void refuse_record(const Experiment& experiment, const std::string& why) {
   throw InputError("too_large", experiment.path.place,
-                   why + "; expected a shorter path, fewer laps or a lower rate");
+                   why + (experiment.has_path() ? "; expected a shorter path, fewer laps or a lower rate"
+                                                : "; expected a shorter duration or a lower rate"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loop/energy_balance.hpp"
 #include "loop/free_memory.hpp"
 #include "loop/position_error.hpp"
 
@@ -16,7 +17,7 @@ bool all_finite(std::span<const double> values) {
 
 }  // namespace
 
-Recorder::Recorder(const Experiment& experiment, const Plan& plan)
+Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_work)
     : plan_(plan),
       kinematics_(equations_of(experiment.scene, experiment.evaluation, {Purpose::end_effector}),
                   experiment.plant_parameters),
@@ -29,7 +30,16 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
       conditions_{-1, 1},
       zero_(n_, 0.0),
       hand_(kinematics_.outputs(Purpose::end_effector)) {
+  measures_.follows_path = plan.has_path();
   measures_.max_torque = Vector::Constant(experiment.scene->n_u(), kNeverMeasured);
+  tells_final_ = !plan.has_path() || experiment.expect.bounds_on("final_psi");
+  const bool tells_energy = !plan.has_path() || experiment.expect.bounds_on("energy_drift");
+  if (tells_energy && other_work_in(experiment).empty()) {
+    measures_.energy_drift = kNeverMeasured;
+    if (knows_work)
+      energy_.emplace(equations_of(experiment.scene, experiment.evaluation, {Purpose::energy}),
+                      experiment.plant_parameters);
+  }
   const auto& parameters = experiment.plant_parameters;
   conditions_.insert(conditions_.end(), parameters.begin(), parameters.end());
   row_of_conditions_ = conditions_.size();
@@ -41,6 +51,7 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan)
 
 void Recorder::note_changes(std::int64_t k, const Faults::State& faults) {
   if (faults.changed_at != k) return;
+  energy_changed_ = true;
   const bool full = conditions_.size() + row_of_conditions_ > conditions_.capacity();
   const bool same_tick = conditions_[conditions_.size() - row_of_conditions_] == static_cast<double>(k);
   if (full || same_tick) conditions_.resize(conditions_.size() - row_of_conditions_);
@@ -59,10 +70,12 @@ Recorder::Conditions Recorder::conditions(std::int64_t k) const {
 
 bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work) {
   if (!all_finite(psi) || !all_finite(psid) || !std::isfinite(work)) return diverged(k);
-  kinematics_.evaluate(Purpose::end_effector, {psi, psid, zero_, time(k)}, hand_);
-  error_ =
-      mixloop::position_error(Eigen::Map<const Eigen::Vector3d>(hand_.data()), plan_.at(k).position, axes_);
-  if (judged(k) && !(error_ <= limit_)) return diverged(k);
+  if (plan_.has_path()) {
+    kinematics_.evaluate(Purpose::end_effector, {psi, psid, zero_, time(k)}, hand_);
+    error_ =
+        mixloop::position_error(Eigen::Map<const Eigen::Vector3d>(hand_.data()), plan_.at(k).position, axes_);
+    if (judged(k) && !(error_ <= limit_)) return diverged(k);
+  }
 
   double* to = row(k);
   std::copy(psi.begin(), psi.end(), to);
@@ -88,7 +101,8 @@ void Recorder::measure(std::int64_t k, std::span<const double> tau) {
     double& most = measures_.max_torque[static_cast<Eigen::Index>(i)];
     if (!(std::abs(tau[i]) <= most)) most = std::abs(tau[i]);
   }
-  if (k < plan_.start_tick()) return;
+  if (energy_) measure_energy(k);
+  if (!plan_.has_path() || k < plan_.start_tick()) return;
   if (!(error_ <= measures_.max_position_error)) {
     measures_.max_position_error = error_;
     measures_.time_of_max_position_error = time(k);
@@ -96,6 +110,27 @@ void Recorder::measure(std::int64_t k, std::span<const double> tau) {
   measures_.final_position_error = error_;
   sum_of_squares_ += error_ * error_;
   ++errors_;
+}
+
+/// (E - E_0 - W) at its largest, over E at its largest.
+void Recorder::measure_energy(std::int64_t k) {
+  double parts[2];
+  energy_->evaluate(Purpose::energy, {.psi = psi(k), .psid = psid(k), .t = time(k)}, parts);
+  const double energy = parts[0] + parts[1];
+  if (!std::exchange(energy_begun_, true)) first_energy_ = energy - work(k);
+  largest_energy_ = std::max(largest_energy_, std::abs(energy));
+  largest_imbalance_ = std::max(largest_imbalance_, std::abs(energy - first_energy_ - work(k)));
+  if (energy_changed_)
+    measures_.energy_drift = kNeverMeasured;
+  else  // what never has any energy drifts by nothing
+    measures_.energy_drift = largest_imbalance_ > 0 ? largest_imbalance_ / largest_energy_ : 0;
+}
+
+std::optional<Vector> Recorder::final_psi() const {
+  if (!tells_final_) return std::nullopt;
+  const std::int64_t last = std::min(recorded_, safe_from_) - 1;
+  if (last < 0) return Vector::Constant(static_cast<Eigen::Index>(n_), kNeverMeasured);
+  return map_of(psi(last));
 }
 
 bool Recorder::diverged(std::int64_t k) {
@@ -113,6 +148,7 @@ void Recorder::made_safe(std::int64_t k) {
 Measures Recorder::measures() const {
   Measures result = measures_;
   result.ticks = std::max<std::int64_t>(recorded_ - 1, 0);
+  result.final_psi = final_psi();
   if (errors_ > 0) result.rms_position_error = std::sqrt(sum_of_squares_ / static_cast<double>(errors_));
   Sha256 hash;
   for (std::int64_t k = 0; k < recorded_; ++k) {

@@ -15,7 +15,8 @@ namespace mixloop {
 /// Keeps a run, tick by tick, and judges it. Nothing allocates after construction.
 class Recorder {
  public:
-  Recorder(const Experiment& experiment, const Plan& plan);
+  /// `knows_work`: the motors' work is told; else there is no energy drift.
+  Recorder(const Experiment& experiment, const Plan& plan, bool knows_work = true);
 
   /// What the record takes, all its ticks alike.
   static std::size_t bytes_a_tick(const Scene& scene) {
@@ -51,7 +52,7 @@ class Recorder {
     double friction = 1;
   };
   Conditions conditions(std::int64_t k) const;
-  double position_error() const { return error_; }  ///< at the latest state, m
+  double position_error() const { return error_; }  ///< at the latest state, m; 0 without a path
 
   Measures measures() const;
   const Equations& equations() const { return kinematics_.equations(); }
@@ -65,6 +66,8 @@ class Recorder {
   std::size_t width() const { return 2 * n_ + 2 * n_u_ + 1; }
   bool judged(std::int64_t k) const { return k < safe_from_; }
   void measure(std::int64_t k, std::span<const double> tau);
+  void measure_energy(std::int64_t k);
+  std::optional<Vector> final_psi() const;
   bool diverged(std::int64_t k);
 
   const Plan& plan_;
@@ -78,6 +81,10 @@ class Recorder {
   std::size_t row_of_conditions_ = 0;
   std::vector<double> conditions_;  ///< rows of tick, friction, parameters: as it began, then each change
   std::vector<double> zero_, hand_;
+  std::optional<Equations::Workspace> energy_;                            ///< none: it isn't measured
+  double first_energy_ = 0, largest_energy_ = 0, largest_imbalance_ = 0;  ///< J
+  bool energy_begun_ = false, energy_changed_ = false;                    ///< changed: by a fault
+  bool tells_final_ = false;
   std::int64_t recorded_ = 0;
   std::int64_t safe_from_ = std::numeric_limits<std::int64_t>::max();
   double error_ = 0, sum_of_squares_ = 0;

@@ -69,6 +69,9 @@ Result result_of(const Experiment& experiment, const Measures& measures, const s
                  .integrator = integrator_of(experiment),
                  .origin = origin_here()};
   if (experiment.plant.random()) run.seed = experiment.plant.seed;
+  if (measures.final_psi)
+    for (const auto& coordinate : experiment.scene->independent)
+      run.position_units.emplace_back(position_unit(coordinate.linear));
   for (const auto& motor : experiment.scene->motors())
     run.torque_units.emplace_back(torque_unit(motor.linear));
   for (std::size_t i = 0; i < experiment.scene->parameters.size(); ++i)

@@ -50,7 +50,8 @@ struct RunFigures {
   };
 
   Measures measures;
-  std::vector<std::string> torque_units;  ///< n_u: N m, of a linear motor N
+  std::vector<std::string> torque_units;    ///< n_u: N m, of a linear motor N
+  std::vector<std::string> position_units;  ///< n: rad, of a linear coordinate m; where there is a final_psi
   std::vector<Bound> bounds;
   bool expects_divergence = false;
   double wall_time = 0;    ///< s

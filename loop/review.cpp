@@ -119,6 +119,7 @@ std::vector<std::string> singular_warnings(const Experiment& experiment, const R
 }  // namespace
 
 std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& plan) try {
+  if (!plan.has_path()) return std::nullopt;
   PlantProbe probe = probe_of(experiment);
   const auto poses = poses_on_plan(probe, plan, experiment.rate_hz);
   return doubt(experiment, plan, linearised(probe, poses));

@@ -15,7 +15,8 @@ struct StepDoubt {
   bool grows = false;  ///< by them a motion grows that doesn't
 };
 
-/// That of an experiment's plant along its plan; nothing where its steps are fine enough.
+/// That of an experiment's plant along its path; nothing where its steps are fine enough, or where there is
+/// none to look along.
 std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& plan);
 
 /// What is to be said of a run that is over and was not to be foreseen: steps too coarse for the states that

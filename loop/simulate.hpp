@@ -8,7 +8,7 @@
 
 namespace mixloop {
 
-/// Throws RunFault("not_at_start") where the robot stands too far from where the references start.
+/// Throws RunFault("not_at_start") where the robot stands too far from where a path starts.
 void require_start(const GuardedController& controller, std::span<const double> psi, const Plan& plan);
 
 /// The closed loop in one process, as fast as it goes: the same plant, controller and plan that the three

@@ -15,6 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kGrowth = 1e-4;          // a tick: less is a matter of accuracy
+constexpr double kLeft = 1e6;             // a motion that has grown so much is no more about that state
 constexpr int kOrderEnough = 4;           // of a remedy, where the method in hand has as much
 constexpr double kLinearisationCost = 3;  // of a Jacobian, in evaluations: what a remedy is picked by
 
@@ -38,7 +39,8 @@ Matrix map_of_tick(const IntegratorSettings& steps, const Matrix& A, double tick
 
 /// How far a motion that is multiplied by `step` a tick falls from one that is by `truth`, within so many
 /// ticks: in amplitudes that it starts with, of one that grows in those that it has. Of one that decays by
-/// the steps too, it counts as much as a tick leaves of it.
+/// the steps too, it counts as much as a tick leaves of it. One that grows in truth soon leaves the state
+/// that it was looked at about: then nothing more is said of it.
 double largest_error(const Complex& step, const Complex& truth, std::int64_t ticks) {
   const double weight = std::abs(step) <= 1 ? std::min(1.0, std::abs(truth)) : 1;
   double largest = 0;
@@ -47,6 +49,7 @@ double largest_error(const Complex& step, const Complex& truth, std::int64_t tic
     const double error = weight * std::abs(by_steps - in_truth) / std::max(1.0, std::abs(in_truth));
     if (!(error <= largest)) largest = error;
     if (!std::isfinite(error)) return HUGE_VAL;
+    if (std::abs(in_truth) > kLeft) break;
     by_steps *= by_steps;
     in_truth *= in_truth;
   }

@@ -16,15 +16,23 @@ void add_vector_names(std::string& line, const char* name, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) line += fmt::format(",{}_{}", name, i + 1);
 }
 
-std::string header(std::size_t n, std::size_t n_u) {
+/// What a line has of the end effector and of references.
+struct Columns {
+  bool actual = true, desired = true;
+};
+
+std::string header(std::size_t n, std::size_t n_u, const Columns& columns) {
   std::string line = "t";
   for (const char* name : {"psi", "psid"}) add_vector_names(line, name, n);
   for (const char* name : {"tau", "tau_applied"}) add_vector_names(line, name, n_u);
-  for (const char* kind : {"desired", "actual"})
+  const auto add_motion = [&](const char* kind) {
     for (const char* what : {"position", "velocity", "acceleration"})
       for (const char axis : {'x', 'y', 'z'}) line += fmt::format(",{}_{}_{}", what, axis, kind);
+  };
+  if (columns.desired) add_motion("desired");
+  if (columns.actual) add_motion("actual");
   line += ",kinetic_energy,potential_energy,work";
-  add_vector_names(line, "psi_desired", n_u);
+  if (columns.desired) add_vector_names(line, "psi_desired", n_u);
   return line;
 }
 
@@ -38,7 +46,8 @@ std::string write_trajectory(const std::filesystem::path& file, const Experiment
   const auto add = [&](std::span<const double> values) {
     for (const double value : values) fmt::format_to(std::back_inserter(line), ",{}", value);
   };
-  out.write(header(experiment.scene->independent.size(), experiment.scene->motors().size()) + "\n");
+  const Columns columns{.actual = experiment.scene->end_effector.named, .desired = plan.has_path()};
+  out.write(header(experiment.scene->independent.size(), experiment.scene->motors().size(), columns) + "\n");
   for (std::int64_t k = 0; k < recorder.ticks_recorded(); ++k) {
     line.clear();
     fmt::format_to(std::back_inserter(line), "{}", recorder.time(k));
@@ -46,12 +55,15 @@ std::string write_trajectory(const std::filesystem::path& file, const Experiment
       add(row);
     const Reference desired = plan.at(k);
     const Truth& truth = truth_of.at(k);
-    for (const double* vector :
-         {desired.position.data(), desired.velocity.data(), desired.acceleration.data(),
-          truth.position.data(), truth.velocity.data(), truth.acceleration.data()})
-      add(std::span(vector, 3));
+    if (columns.desired)
+      for (const double* vector :
+           {desired.position.data(), desired.velocity.data(), desired.acceleration.data()})
+        add(std::span(vector, 3));
+    if (columns.actual)
+      for (const double* vector : {truth.position.data(), truth.velocity.data(), truth.acceleration.data()})
+        add(std::span(vector, 3));
     add(std::array{truth.kinetic_energy, truth.potential_energy, truth.work});
-    add(span_of(desired.psi));
+    if (columns.desired) add(span_of(desired.psi));
     line.push_back('\n');
     out.write({line.data(), line.size()});
   }

@@ -33,10 +33,12 @@ inline constexpr bool kRequired = true;
 struct Keys {
   std::string what;  ///< for messages, e.g. "the path"
   std::vector<Key> all;
-  std::string unless{};  ///< a key beside which none is required; empty: there is no such key
+  std::string unless{};               ///< a key beside which none is required; empty: there is no such key
+  std::vector<std::string> either{};  ///< one of these is required, and no two stand together
 };
 
-/// The mapping as one that has these keys. Throws InputError as Mapping does.
+/// The mapping as one that has these keys. Throws InputError as Mapping does, and for
+/// none of `either` ("missing_key") or several ("doubly_defined").
 Mapping read_mapping(NodePtr node, const Keys& keys);
 
 /// The words of a key whose value is one.

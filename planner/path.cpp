@@ -85,6 +85,11 @@ const Keys& path_keys() {
 
 Path read_path(const NodePtr& node, const Scene& scene) {
   const Mapping entry = read_mapping(node, path_keys());
+  if (!scene.end_effector.named)
+    throw InputError(
+        "missing_key", node->place,
+        "the scene names no end_effector, so nothing follows a path; expected one, or `duration` "
+        "in place of the path");
   Path path;
   path.axes = scene.end_effector.axes;
   path.place = node->place;

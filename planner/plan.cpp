@@ -2,6 +2,7 @@
 #include "planner/plan.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "planner/plan_maker.hpp"
 
@@ -12,7 +13,19 @@ Plan::Plan(const Model<double>& model, const Path& path, const Settings& setting
   PlanMaker(model, path, settings).make(*this);
 }
 
+Plan Plan::without_path(const PsiMotion& motors, std::int64_t ticks) {
+  Plan plan;
+  plan.has_path_ = false;
+  plan.n_u_ = static_cast<int>(motors.psi.size());
+  plan.ticks_ = ticks;
+  for (const Vector* values : {&motors.psi, &motors.psid, &motors.psidd})
+    plan.table_.insert(plan.table_.end(), values->begin(), values->end());
+  plan.table_.resize(reference_size(plan.n_u_), std::numeric_limits<double>::quiet_NaN());
+  return plan;
+}
+
 std::span<const double> Plan::row_of(std::int64_t index) const {
+  if (!has_path_) return table_;
   const std::int64_t start = start_tick_ * stages_, end = ticks_ * stages_, rows = start + lap_rows_;
   std::int64_t row = std::max<std::int64_t>(index, 0);
   if (row >= end)

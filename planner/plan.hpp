@@ -6,6 +6,7 @@
 
 #include "dynamics/procedure/model.hpp"
 #include "planner/limits.hpp"
+#include "planner/motion.hpp"
 #include "planner/path.hpp"
 #include "planner/reference.hpp"
 
@@ -32,6 +33,11 @@ class Plan {
   /// The move to the start takes `path.approach`; without one, at least 1 s and as long as `limits.velocity`
   /// asks for, or, without limits, so long that no motor turns faster than on the path.
   Plan(const Model<double>& model, const Path& path, const Settings& settings);
+  /// Of a motion without a path: so many ticks, and at all of them the motors' same reference (n_u), what an
+  /// end effector has in it not a number.
+  static Plan without_path(const PsiMotion& motors, std::int64_t ticks);
+
+  bool has_path() const { return has_path_; }
 
   int n_u() const { return n_u_; }
   std::int64_t ticks() const { return ticks_; }  ///< N: the last tick
@@ -47,8 +53,10 @@ class Plan {
 
  private:
   friend class PlanMaker;
+  Plan() = default;
   std::span<const double> row_of(std::int64_t index) const;
 
+  bool has_path_ = true;
   int n_u_ = 0;
   int stages_ = 1;  ///< rows a tick
   std::int64_t ticks_ = 0, start_tick_ = 0;

@@ -24,11 +24,11 @@ struct Plant::Drives {
 };
 
 Plant::Plant(Equations::Workspace dynamics, const PlantSettings& settings, double rate_hz,
-             std::span<const double> psi0)
+             std::span<const double> psi0, std::span<const double> psid0)
     : ideal_{plant_model(settings, dynamics.scene(), rate_hz), std::move(dynamics)},
       rows_(stage_rows(settings.integrator)),
       faults_may_come_(settings.faults.injected),
-      state_{.motion = state_at(model(), psi0)} {
+      state_{.motion = state_at(model(), psi0, psid0)} {
   if (!Hardware::needed(settings)) return;
   hardware_.emplace(settings, ideal_.dynamics().scene(), rate_hz);
   state_.hardware = hardware_->state();

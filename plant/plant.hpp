@@ -20,8 +20,9 @@ std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> sc
 /// ticks, no clock. Nothing allocates after construction.
 class Plant {
  public:
+  /// It starts at psi0 (n) with the rates psid0 (n); none: at rest.
   Plant(Equations::Workspace dynamics, const PlantSettings& settings, double rate_hz,
-        std::span<const double> psi0);
+        std::span<const double> psi0, std::span<const double> psid0 = {});
 
   /// All that it remembers.
   const PlantState& state() const { return state_; }

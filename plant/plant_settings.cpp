@@ -84,6 +84,7 @@ const Keys& plant_keys() {
                           {"command_delay", form::number()},
                           {"torque_limit", form::numbers()},
                           {"initial", form::numbers()},
+                          {"initial_rates", form::numbers()},
                           {"parameters", form::named(form::number())},
                           {"sensors", form::mapping(sensor_keys)},
                           {"actuators", form::mapping(actuator_keys)}}};
@@ -113,6 +114,8 @@ PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene, doubl
   }
   if (const NodePtr initial = entry.find("initial"))
     settings.initial_psi = read_values(initial, scene.independent, kPosition, "the initial position");
+  if (const NodePtr rates = entry.find("initial_rates"))
+    settings.initial_psid = read_values(rates, scene.independent, kVelocity, "the initial rate");
   if (const NodePtr sensors = entry.find("sensors"))
     settings.sensors = read_sensor_settings(sensors, scene, rate_hz);
   if (const NodePtr actuators = entry.find("actuators"))

@@ -24,6 +24,7 @@ struct PlantSettings {
   double command_delay = 0;          ///< s: COMMAND(k) acts from t_k + command_delay on
   std::vector<double> torque_limit;  ///< n_u, N m or N: what the motors can give; empty: no limit
   std::vector<double> initial_psi;   ///< n, rad or m: where it stands at first; empty: at the path's start
+  std::vector<double> initial_psid;  ///< n, rad/s or m/s: of a motion without a path; empty: at rest
   SensorSettings sensors;
   ActuatorSettings actuators;
   FaultSettings faults;
@@ -40,8 +41,8 @@ std::vector<double> parameters_of(const PlantSettings& settings, const Scene& sc
 /// The settings without sensors, actuators, faults.
 PlantSettings ideal(PlantSettings settings);
 
-/// Reads `{integrator, local_error, control, substeps, command_delay, torque_limit, initial, sensors,
-/// actuators}`; `parameters` belongs to the experiment. Sensors need the rate.
+/// Reads `{integrator, local_error, control, substeps, command_delay, torque_limit, initial,
+/// initial_rates, sensors, actuators}`; `parameters` belongs to the experiment. Sensors need the rate.
 PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene, double rate_hz);
 
 }  // namespace mixloop

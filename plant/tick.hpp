@@ -17,12 +17,13 @@ void move_on(IdealState<T>& state, double t, double length, Drives&& drives) {
   if (length > 0 && !state.locked) drives.integrate(state, t, length);
 }
 
-/// The state at tick 0, at rest.
+/// The state at tick 0, at rest unless rates are given.
 template <class T>
-IdealState<T> state_at(const PlantModel& model, std::span<const T> psi0) {
+IdealState<T> state_at(const PlantModel& model, std::span<const T> psi0, std::span<const T> psid0 = {}) {
   const auto n = static_cast<Eigen::Index>(model.n), n_u = static_cast<Eigen::Index>(model.n_u);
   IdealState<T> state{.x = Vec<T>::Zero(2 * n + 1), .applied = Vec<T>::Zero(n_u)};
   std::copy(psi0.begin(), psi0.end(), state.x.data());
+  std::copy(psid0.begin(), psid0.end(), state.x.data() + n);
   state.commands.assign(model.delay_ticks + 2, state.applied);
   return state;
 }

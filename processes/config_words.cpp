@@ -27,7 +27,8 @@ ConfigWords config_words(const Experiment& experiment) {
     parameters.push_back(fmt::format("{} = {:g}", scene.parameters[i].name, experiment.parameters[i]));
   return {fmt::format("{:g} Hz", experiment.rate_hz),
           fmt::format("{} with {} motors", experiment.scene_document->place.file, scene.n_u()),
-          words_of(experiment.path),
+          experiment.has_path() ? words_of(experiment.path)
+                                : fmt::format("none, {:g} s long", *experiment.duration),
           parameters.empty() ? "none" : fmt::format("{}", fmt::join(parameters, ", "))};
 }
 

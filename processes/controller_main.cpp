@@ -32,7 +32,7 @@ int run(const PeerLine& line) {
 int main(int argc, char** argv) {
   return mixloop::peer_main(
       argc, argv, "mixloop-controller: the control law of an experiment, on the LCM bus.",
-      "Holds STATE(k) until REFERENCE(k) is there and answers with COMMAND(k); the same "
-      "tick always has the same answer.",
+      "Holds STATE(k) until REFERENCE(k) is there (without a path it awaits none) and answers with "
+      "COMMAND(k); the same tick always has the same answer.",
       mixloop::run);
 }

@@ -40,7 +40,7 @@ ControllerSide controller_side(GuardedController& controller, const Experiment& 
                           .psid = state.psid_measured,
                           .t = static_cast<double>(state.seq) / experiment.rate_hz,
                           .stale = (state.flags & state_t::FLAG_STALE) != 0};
-    const Reference heard = reference_in(message);
+    const Reference heard = plan.has_path() ? reference_in(message) : plan.at(state.seq);
     const Reference desired =
         ahead == 0 ? heard : later->take(heard, static_cast<double>(ahead) / experiment.rate_hz);
     return flags_of(controller.torque(now, desired, tau));

@@ -18,6 +18,7 @@ PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std
           .config = config_of(common_ground(experiment)),
           .config_words = config_words(experiment),
           .rate_hz = experiment.rate_hz,
+          .references = experiment.has_path(),
           .last_tick = last_tick,
           .first_wait = line.first_wait_ns(),
           .patience = line.patience_ns(),

@@ -23,6 +23,11 @@ int run(const PeerLine& line) {
   stop.turn_on_signals();
   const WorkWatch watch([&] { return stop.turned(); });
   const Experiment experiment = line.load();
+  if (!experiment.has_path())
+    throw InputError(
+        "no_path", experiment.path.place,
+        "the experiment has a duration in place of a path, and nothing to plan: plant and controller "
+        "go without a planner");
   const Plan plan = make_plan(experiment);
 
   Bus bus(line.bus);

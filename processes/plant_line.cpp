@@ -14,6 +14,7 @@ PlantOptions plant_options(const PlantLine& line, const Experiment& experiment, 
   return {.n = experiment.scene->n(),
           .n_u = experiment.scene->n_u(),
           .last_tick = last_tick,
+          .references = experiment.has_path(),
           .rate_hz = experiment.rate_hz,
           .speed = speed_of(!speed.empty()   ? speed
                             : line.real_time ? "1"

@@ -26,7 +26,9 @@ int run(const PlantLine& line) {
   // Of `mixloop run` it has been done, and its log lies there.
   if (!line.out.empty() && line.report_fd < 0) begin_run_folder(line.out);
   Bus bus(line.bus);
-  if (line.report_fd < 0) line.say_waiting("mixloop-plant", "a controller and a planner", "COMMAND");
+  if (line.report_fd < 0)
+    line.say_waiting("mixloop-plant", experiment.has_path() ? "a controller and a planner" : "a controller",
+                     "COMMAND");
   for (std::int64_t session = line.session;;) {
     PlantSession plant(line, experiment, plan, report);
     const std::int64_t next = draw_session();
@@ -51,15 +53,15 @@ int main(int argc, char** argv) {
                  "plant seconds a real second; max, as fast as it goes, is lockstep's default, 1 real time's")
       ->type_name("X");
   app.add_flag("--paused", options.paused, "begin paused, at tick 0; see mixloop control");
-  app.add_flag("--hold", options.hold, "go on holding the end point until stopped");
+  app.add_flag("--hold", options.hold, "go on past the end until stopped, a path's end point held");
   app.add_flag("--truth", options.truth, "publish TRUTH, which no controller may read");
   app.add_flag("--allow-faults", options.allow_faults, "obey FAULT messages: mixloop control fault");
   app.add_option("--out", options.out, "keep result.json and trajectory.csv in this folder")
       ->type_name("DIR");
   app.add_option("--report-fd", options.report_fd, "tell `mixloop run` over this file descriptor")->group("");
   app.footer(
-      "Publishes STATE, waits for COMMAND; start mixloop-controller and mixloop-planner on the same "
-      "experiment, in any order.\n"
+      "Publishes STATE, waits for COMMAND; start mixloop-controller and, unless there is no path,\n"
+      "mixloop-planner on the same experiment, in any order.\n"
       "With --realtime it waits for tick 0's COMMAND only: from then on commands have a deadline.\n"
       "Exit status: 0 held, 1 a bound missed, 2 bad input, 3 a fault at run time, 130 interrupted.");
   app.callback([&] { status = mixloop::run(options); });

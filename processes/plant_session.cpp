@@ -73,7 +73,9 @@ bool PlantSession::goes_on(std::int64_t k) {
   if (k != run_.plan().ticks()) return true;
   if (!line_.hold) return false;
   finish(nullptr);
-  if (line_.report_fd < 0) fmt::print(stderr, "mixloop-plant: holding the end point; Ctrl-C ends it\n");
+  if (line_.report_fd < 0)
+    fmt::print(stderr, "mixloop-plant: {}; Ctrl-C ends it\n",
+               run_.plan().has_path() ? "holding the end point" : "going on past the end");
   return true;
 }
 

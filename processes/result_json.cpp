@@ -30,6 +30,12 @@ class Keys {
   void among(const std::string& key, T& value, const Fields& fields) const {
     if (has(key, value)) fields(*this, *value);
   }
+  /// The keys that stand among these where `flag` says so; `key` is one of them.
+  template <class Flag, class Fields>
+  void where(const std::string& key, Flag& flag, const Fields& fields) const {
+    if constexpr (kReads) flag = json_.contains(key);
+    if (flag) fields(*this);
+  }
   template <class Fields>
   void group(const std::string& key, const Fields& fields) const {
     fields(Keys(at(key)));
@@ -101,10 +107,14 @@ concept IsA = std::is_same_v<std::remove_const_t<T>, U>;
 
 template <class Way, IsA<Measures> M>
 void fields(const Way& f, M& m) {
-  f("max_position_error", m.max_position_error);
-  f("time_of_max_position_error", m.time_of_max_position_error);
-  f("final_position_error", m.final_position_error);
-  f("rms_position_error", m.rms_position_error);
+  f.where("max_position_error", m.follows_path, [&](const Way& g) {
+    g("max_position_error", m.max_position_error);
+    g("time_of_max_position_error", m.time_of_max_position_error);
+    g("final_position_error", m.final_position_error);
+    g("rms_position_error", m.rms_position_error);
+  });
+  f("final_psi", m.final_psi);
+  f("energy_drift", m.energy_drift);
   f("max_torque", m.max_torque);
   f("ticks", m.ticks);
   f("trajectory_sha256", m.trajectory_sha256);
@@ -143,6 +153,7 @@ template <class Way, IsA<RunFigures> R>
 void fields(const Way& f, R& run) {
   fields(f, run.measures);
   f("torque_units", run.torque_units);
+  if (run.measures.final_psi) f("position_units", run.position_units);
   f("bounds", run.bounds);
   f("expects_divergence", run.expects_divergence);
   f("wall_time", run.wall_time);
@@ -218,7 +229,7 @@ void fields(const Way& f, R& result) {
   f("verdict", result.judged.verdict);
   f("missed", result.judged.missed);
   f("exit_status", result.judged.exit_status);
-  f.among("max_position_error", result.run, flat);
+  f.among("ticks", result.run, flat);
   f.among("round_trip_p50", result.bus, flat);
   f("session", result.session);
   f("missing_ticks", result.missing_ticks);

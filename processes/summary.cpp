@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/scene/coordinate_values.hpp"
 #include "notation/number_text.hpp"
 
 namespace mixloop {
@@ -16,9 +17,11 @@ std::string endings(const Experiment& experiment, const Result& result) {
   std::string text;
   if (measures.diverged_at)
     text += fmt::format(
-        "  diverged at {:.6g} s: the position error passed {:.6g} mm or a value was not finite; nothing of "
-        "that tick was published\n",
-        *measures.diverged_at, experiment.position_error_limit * 1e3);
+        "  diverged at {:.6g} s: {}a value was not finite; nothing of that tick was published\n",
+        *measures.diverged_at,
+        experiment.has_path()
+            ? fmt::format("the position error passed {:.6g} mm or ", experiment.position_error_limit * 1e3)
+            : "");
   if (measures.safe_at) {
     const bool caused = result.bus && result.bus->deadlines && result.bus->deadlines->safe_cause;
     text += fmt::format("  safe state from {:.6g} s on{}; what follows is judged up to there\n",
@@ -35,6 +38,21 @@ std::string position_error(const Measures& measures) {
   return fmt::format("max {} at {:.6g} s, final {}, rms {}", mm(measures.max_position_error),
                      measures.time_of_max_position_error, mm(measures.final_position_error),
                      mm(measures.rms_position_error));
+}
+
+std::string final_psi(const Scene& scene, const Vector& psi) {
+  if (psi.hasNaN()) return "never measured: no tick was judged";
+  std::string text;
+  for (std::size_t i = 0; i < scene.independent.size(); ++i)
+    text +=
+        fmt::format("{}{} {} {}", i > 0 ? ", " : "", scene.independent[i].name,
+                    fixed(psi[static_cast<Eigen::Index>(i)], 9), position_unit(scene.independent[i].linear));
+  return text;
+}
+
+std::string energy_drift(double drift) {
+  if (std::isnan(drift)) return "never measured: the motors' work isn't told, or a fault changed the plant";
+  return fmt::format("{:.3g} of the largest energy, the motors' work taken off", drift);
 }
 
 bool all_linear(const RunFigures& run) {
@@ -81,7 +99,10 @@ std::string summary(const Experiment& experiment, const Result& result) {
   const RunFigures& run = *result.run;
   const Measures& measures = run.measures;
   text += endings(experiment, result);
-  text += "  position error   " + position_error(measures) + "\n";
+  if (measures.follows_path) text += "  position error   " + position_error(measures) + "\n";
+  if (measures.final_psi)
+    text += "  final position   " + final_psi(*experiment.scene, *measures.final_psi) + "\n";
+  if (measures.energy_drift) text += "  energy drift     " + energy_drift(*measures.energy_drift) + "\n";
   text += fmt::format("  max {:<13}", all_linear(run) ? "force" : "torque") + max_torque(run) + "\n";
   text += fmt::format("  {} ticks at {:g} Hz by {} in {:.3f} s ({})\n", measures.ticks, experiment.rate_hz,
                       run.route, run.wall_time, run.evaluation);

@@ -22,7 +22,9 @@ void Mechanism::complete(Tick& tick) {
   if (tick.psi.empty() || std::isnan(tick.psi[0])) return;
   coordinates<double>(model_, std::span<const double>(tick.psi), tick.t, ws_);
   tick.q.assign(ws_.q.begin(), ws_.q.end());
-  if (std::isnan(tick.actual.position[0])) {
+  if (!scene_->end_effector.named) {
+    tick.actual = {};  // TRUTH has the ground's origin in its place
+  } else if (std::isnan(tick.actual.position[0])) {
     dynamics_.evaluate(Purpose::forward_dynamics, {tick.psi, tick.psid, tick.tau_applied, tick.t}, psidd_);
     dynamics_.evaluate(Purpose::end_effector, {tick.psi, tick.psid, psidd_, tick.t}, hand_);
     tick.actual.position = Eigen::Map<const Eigen::Vector3d>(hand_.data());

@@ -113,10 +113,13 @@ std::string foreign_inputs(const ordered_json& result, const std::filesystem::pa
   return "inputs.json has another scene than result.json beside it: it is of another run.";
 }
 
-void add_notes(const LogFacts& facts, std::vector<std::string>& notes) {
+/// Without a path there are no references to miss.
+void add_notes(LogFacts& facts, RunFile& run) {
+  auto& notes = run.notes;
   const auto say = [&](std::int64_t count, const char* what) {
     if (count > 0) notes.push_back(fmt::format("{} {}", count, what));
   };
+  if (!run.has_path) facts.references_missing = 0;
   say(facts.states_missing, "ticks have no STATE in the log: gaps.");
   say(facts.commands_missing, "ticks have no COMMAND in the log.");
   say(facts.references_missing, "ticks have no REFERENCE in the log.");
@@ -225,7 +228,7 @@ std::optional<LogFacts> read_folder(RunFile& run, Mechanism* mechanism,
       ages.resize(static_cast<std::size_t>(tick.k), kUnknown);
       ages.push_back(tick.command_age);
     });
-    add_notes(*facts, run.notes);
+    add_notes(*facts, run);
   }
   if (!run.ages.empty()) {
     ages.clear();
@@ -245,7 +248,7 @@ LogFacts read_log_alone(RunFile& run, Mechanism* mechanism, const std::function<
     if (mechanism) mechanism->complete(tick);
     on_tick(tick);
   });
-  add_notes(facts, run.notes);
+  add_notes(facts, run);
   if (const std::string dropped = facts.timing.empty() ? "" : dropped_in(facts.timing.back());
       !dropped.empty())
     run.notes.push_back("By its TIMING the plant dropped messages: " + dropped + ".");
@@ -277,6 +280,8 @@ RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) 
   RunFile run = is_result ? opened_folder(path, options, known) : opened_log(log, options, known);
   run.prefix = options.prefix;
   run.inputs = known.inputs;
+  if (run.inputs.is_object() && run.inputs.contains("experiment"))
+    run.has_path = !run.inputs["experiment"].is_object() || !run.inputs["experiment"].contains("duration");
   run.scene = known.scene;
   run.parameters = known.parameters;
   if (!run.scene) return run;

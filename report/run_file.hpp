@@ -31,6 +31,7 @@ struct RunFile {
   nlohmann::ordered_json result, inputs;  ///< as kept; null where there is none
   std::shared_ptr<const Scene> scene;     ///< null where none is known
   std::vector<double> parameters;         ///< of the plant
+  bool has_path = true;                   ///< as far as is known
   double rate_hz = 0;
   std::int64_t first_tick = 0;
   RunSizes sizes;

@@ -19,6 +19,13 @@ Vector disturbance(const Reference& at) {
   return (kAboveRounding * roundoff * at.psi.cwiseAbs()).cwiseMax(kDisturbance);
 }
 
+PsiMotion at_rest(const Experiment& experiment, const Reference& reference) {
+  PsiMotion still = wanted_state(experiment.controller, *experiment.scene, reference);
+  still.psid.setZero();
+  still.psidd.setZero();
+  return still;
+}
+
 /// One robot that holds the reference.
 class Holding {
  public:
@@ -29,7 +36,7 @@ class Holding {
     // What the control law lacks of an equilibrium at the reference.
     const auto n_u = start.psi.size();
     tau_ = Vector::Zero(n_u);
-    const PsiMotion still = with_free_at_home(*experiment.scene, {start.psi, {}, {}});
+    const PsiMotion still = at_rest(experiment, start);
     Vector needed(still.psi.size());
     Equations::Workspace dynamics(
         equations_of(experiment.scene, experiment.evaluation, {Purpose::inverse_dynamics}),
@@ -52,7 +59,7 @@ class Holding {
  private:
   static Plant plant_of(const Experiment& experiment, const Reference& start, const Sampling& sampling,
                         const Vector& off) {
-    Vector psi = with_free_at_home(*experiment.scene, {start.psi, {}, {}}).psi;
+    Vector psi = at_rest(experiment, start).psi;
     psi.head(start.psi.size()) += off;
     PlantSettings settings = ideal(experiment.plant);
     settings.command_delay = sampling.delay;

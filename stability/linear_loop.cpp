@@ -25,7 +25,7 @@ Linearisation::Linearisation(const Experiment& experiment)
                              experiment.evaluation)) {}
 
 LinearLoop Linearisation::at(const Reference& reference, double t) {
-  const PsiMotion at = whole_motion(*scene_, reference);
+  const PsiMotion at = wanted_state(settings_, *scene_, reference);
   const auto n = at.psi.size(), n_u = reference.psi.size();
   const Matrix slopes = forward_dynamics_slopes(plant_, at, t);
   if (!slopes.allFinite()) {

@@ -21,7 +21,7 @@ class Linearisation {
   explicit Linearisation(const Experiment& experiment);
 
   const Equations& equations() const { return plant_.equations(); }
-  /// At a reference that the plant follows exactly, its free coordinates at rest at home.
+  /// At a reference that the plant follows exactly, its free coordinates where wanted_state has them.
   LinearLoop at(const Reference& reference, double t);
 
  private:

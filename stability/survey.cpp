@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "notation/errors.hpp"
+
 namespace mixloop {
 namespace {
 
@@ -12,7 +14,17 @@ void narrow(Narrowest& narrowest, const std::optional<double>& value, double tim
 
 }  // namespace
 
+bool closes_loop(const Experiment& experiment) {
+  return experiment.has_path() || experiment.controller.law != Law::torque;
+}
+
 Survey survey(const Experiment& experiment, const Plan& plan, int poses) {
+  if (!closes_loop(experiment))
+    throw InputError(
+        "no_path", experiment.path.place,
+        "the law torque doesn't look at the state, so it closes no loop, and without a path there is "
+        "nothing to stay near: no stability to judge; expected state_feedback, or a path");
+  if (!plan.has_path()) poses = 1;
   Linearisation linearisation(experiment);
   Survey survey{.sampling = {1 / experiment.rate_hz, experiment.plant.command_delay},
                 .times = {},
@@ -20,7 +32,7 @@ Survey survey(const Experiment& experiment, const Plan& plan, int poses) {
                 .complaint = linearisation.equations().complaint()};
   const auto span = static_cast<double>(plan.ticks() - plan.start_tick());
   for (int i = 0; i < poses; ++i) {
-    const auto k = plan.start_tick() + std::llround(span * i / (poses - 1));
+    const auto k = plan.start_tick() + (i == 0 ? 0 : std::llround(span * i / (poses - 1)));
     survey.times.push_back(static_cast<double>(k - plan.start_tick()) / experiment.rate_hz);
     survey.loops.push_back(linearisation.at(plan.at(k), static_cast<double>(k) / experiment.rate_hz));
   }

@@ -5,7 +5,8 @@
 
 namespace mixloop {
 
-/// The loop linearised at some instants of an experiment's path, its start first.
+/// The loop linearised at some instants of an experiment's path, its start first; without a path, about the
+/// state that it feeds back about.
 struct Survey {
   Sampling sampling;          ///< the experiment's
   std::vector<double> times;  ///< s, from the start of the path
@@ -13,7 +14,11 @@ struct Survey {
   std::string complaint;  ///< of Equations
 };
 
-/// At `poses` instants evenly spread over the path, both ends included (at least 2).
+/// Whether there is something to be stable: the state is fed back, or a path to be near to.
+bool closes_loop(const Experiment& experiment);
+
+/// At `poses` instants evenly spread over the path, both ends included (at least 2); without a path, at t = 0
+/// alone, as nothing changes. Throws InputError("no_path") where there is no loop: a torque without a path.
 Survey survey(const Experiment& experiment, const Plan& plan, int poses);
 
 /// The least of a limit along the path, and where.

@@ -16,6 +16,7 @@ constexpr auto kBreath = std::chrono::milliseconds(8);  // between two looks at 
 nlohmann::json desired_path(const Experiment& experiment) {
   const Plan plan = make_plan(experiment);
   std::vector<Eigen::Vector3d> path;
+  if (!plan.has_path()) return path_json(path);
   for (std::int64_t k = plan.start_tick(); k <= plan.ticks(); ++k) path.push_back(plan.at(k).position);
   return path_json(path);
 }

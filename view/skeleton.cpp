@@ -34,6 +34,7 @@ void Skeleton::place(std::span<const double> psi, double t) {
 }
 
 Eigen::Vector3d Skeleton::end_effector() const {
+  if (!scene_->end_effector.named) return Eigen::Vector3d::Constant(std::nan(""));
   return at_point<double>(ws_.frames[static_cast<std::size_t>(scene_->end_effector.frame)].T_0,
                           model_.end_effector_point);
 }

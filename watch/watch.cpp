@@ -89,6 +89,7 @@ void Watch::begin(const state_t& state) {
   latest_ = latest_command_ = -1;
   command_flags_ = truth_flags_ = 0;
   phase_ = reference_t::PHASE_PATH;
+  referred_ = false;
   config_ = state.config;
   command_config_.reset();
   reference_config_.reset();
@@ -126,6 +127,7 @@ void Watch::on(const reference_t& reference, Instant) {
   reference_config_ = reference.config;
   if (reference.config != config_) return;  // who awaits it drops it
   if (ticks_.add(reference) != Taken::fresh) return;
+  referred_ = true;
   const HeardTick& tick = *ticks_.find(reference.seq);
   compare_motors(tick);
   compare_with_truth(tick);
@@ -199,6 +201,8 @@ Condition Watch::condition(Instant at) const {
   if (at - state_at_ > std::chrono::seconds(1))
     return latest_command_ < latest_ ? Condition::waiting : Condition::paused;
   if (state_flags_ & state_t::FLAG_SAFE_STATE) return Condition::safe_state;
+  // Commands that no reference went before.
+  if (experiment_ ? !experiment_->has_path() : !referred_ && latest_command_ > 0) return Condition::moving;
   if (phase_ == reference_t::PHASE_MOVE_TO_START) return Condition::moving_to_start;
   return phase_ == reference_t::PHASE_HOLD ? Condition::holding : Condition::on_path;
 }

@@ -52,9 +52,11 @@ enum class Condition : std::uint8_t {
   ended,
   waiting,  ///< the plant repeats a tick that has no answer
   paused,   ///< it repeats one that has
+  moving,   ///< without a path
 };
-inline constexpr std::array kConditionNames = {
-    "silent", "on_path", "moving_to_start", "holding", "safe_state", "stopped", "ended", "waiting", "paused"};
+inline constexpr std::array kConditionNames = {"silent",     "on_path", "moving_to_start", "holding",
+                                               "safe_state", "stopped", "ended",           "waiting",
+                                               "paused",     "moving"};
 
 /// All that a viewer shows, at one instant.
 struct WatchView {
@@ -120,6 +122,7 @@ class Watch {
   Instant heard_at_{0};  ///< when it was last heard
   std::int32_t state_flags_ = 0, command_flags_ = 0, truth_flags_ = 0;
   std::int8_t phase_ = 0;
+  bool referred_ = false;    ///< a REFERENCE of the session was heard
   std::int64_t config_ = 0;  ///< the plant's; the others' that were last heard
   std::optional<std::int64_t> command_config_, reference_config_;
   double plant_time_ = 0;

@@ -61,6 +61,8 @@ Piece condition(const WatchView& view) {
       return {fmt::format("waiting: no COMMAND that answers tick {}", view.tick), Style::warning};
     case Condition::paused:
       return {fmt::format("paused: the plant repeats tick {}", view.tick), Style::warning};
+    case Condition::moving:
+      return {"moving, without a path", Style::good};
     case Condition::on_path:
       break;
   }
@@ -96,6 +98,8 @@ void add_channels(std::vector<Line>& lines, const WatchView& view, bool whole) {
 }
 
 Line tracking(const WatchView& view) {
+  if (view.condition == Condition::moving)
+    return {{"position error  ", Style::heading}, {"none: it moves without a path", Style::quiet}};
   if (!view.position_error)
     return {{"position error  ", Style::heading},
             {"none yet: it needs the path, and TRUTH on the bus or an experiment", Style::quiet}};

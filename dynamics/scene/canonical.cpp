@@ -73,9 +73,13 @@ std::string canonical_text(const Scene& scene) {
   if (scene.is_closed()) add_closures(text, scene);
   text += "gravity\n";
   add(text, scene.gravity);
-  text +=
-      fmt::format("end effector {} {}\n", scene.end_effector.frame, fmt::join(scene.end_effector.axes, " "));
-  add(text, scene.end_effector.point);
+  if (scene.end_effector.named) {
+    text += fmt::format("end effector {} {}\n", scene.end_effector.frame,
+                        fmt::join(scene.end_effector.axes, " "));
+    add(text, scene.end_effector.point);
+  } else {
+    text += "no end effector\n";
+  }
   for (const double psi : scene.home) text += fmt::format("{:a} ", psi);
   for (const auto& singularity : scene.singularities) add(text, singularity.measure);
   return text;

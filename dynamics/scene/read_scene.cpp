@@ -19,8 +19,14 @@ void read_name(const Mapping& root, Scene& scene) {
 }
 
 void read_end_effector(const Mapping& root, SceneDraft& draft) {
-  const Mapping entry = read_mapping(root.at("end_effector"), end_effector_keys());
   auto& end_effector = draft.scene.end_effector;
+  const NodePtr node = root.find("end_effector");
+  if (!node) {
+    end_effector.named = false;
+    end_effector.point = draft.vector(nullptr, kLength, "the end effector's point", draft.fixed);
+    return;
+  }
+  const Mapping entry = read_mapping(node, end_effector_keys());
   end_effector.frame = draft.frame(entry);
   end_effector.point = draft.vector(entry.find("point"), kLength, "the end effector's point", draft.fixed);
   const NodePtr axes = entry.find("axes");
@@ -102,7 +108,7 @@ const Keys& scene_keys() {
        {"bodies", list(mapping(body_keys)), kRequired},
        {"loads", list(one_of({mapping(load_keys), mapping(coordinate_load_keys)}))},
        {"gravity", numbers()},
-       {"end_effector", mapping(end_effector_keys), kRequired},
+       {"end_effector", mapping(end_effector_keys)},
        {"home", named(number())},
        {"singularities", named(number())},
        {"solids", list(one_of({mapping(box_keys), mapping(sphere_keys), mapping(round_keys)}))}}};

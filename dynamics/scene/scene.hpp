@@ -124,7 +124,9 @@ struct Scene {
     std::array<double, 3> from = {}, to = {};  ///< the axis' ends; of a box and a sphere both are the centre
   };
 
+  /// Of a scene that names none: the origin of the ground, which stands still.
   struct EndEffector {
+    bool named = true;
     int frame = 0;
     std::array<Formula, 3> point;
     std::vector<int> axes = {0, 1, 2};  ///< which of x, y, z a path prescribes

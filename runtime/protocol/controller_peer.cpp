@@ -27,9 +27,10 @@ ControllerPeer::ControllerPeer(Bus& bus, const StopSwitch& stop, const PeerOptio
       safe_(options.n_u),
       reference_channel_(bus.channel("REFERENCE")),
       command_channel_(bus.channel("COMMAND")),
-      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n_u)}) {
+      ring_(kAhead, Kept{.tick = -1, .message = blank<reference_t>(options.n_u)}),
+      none_(blank<reference_t>(options.n_u)) {
   if (!side_.compute) throw std::logic_error("the controller has no law to compute");
-  bus_.subscribe<&ControllerPeer::on_reference>(reference_channel_, this);
+  if (options_.references) bus_.subscribe<&ControllerPeer::on_reference>(reference_channel_, this);
 }
 
 Ending ControllerPeer::run() {
@@ -82,8 +83,14 @@ void ControllerPeer::begin_session() {
 void ControllerPeer::answer_if_ready() {
   const std::int64_t tick = link_.latest();
   if (tick <= answered_) return;
+  if (!options_.references) return answer_without_reference(tick);
   const Kept& reference = kept(tick);
   if (reference.tick == tick) answer(reference.message);
+}
+
+void ControllerPeer::answer_without_reference(std::int64_t tick) {
+  none_.seq = tick;
+  answer(none_);
 }
 
 void ControllerPeer::answer(const reference_t& reference) {

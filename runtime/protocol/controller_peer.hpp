@@ -31,7 +31,8 @@ struct ControllerSide {
 
 /// The controller's side of the bus: answers every STATE with the COMMAND that its law gives for it and for
 /// the REFERENCE of the same tick, whichever comes first; never uses another tick's. A repeated STATE is
-/// answered by the same bytes, an older one is dropped.
+/// answered by the same bytes, an older one is dropped. Where there are no references (PeerOptions), a STATE
+/// is answered at once, and the law is given a blank one of its tick.
 ///
 /// Where the plant keeps real time, only the latest STATE is answered. A REFERENCE that isn't there after a
 /// quarter of a tick is extrapolated from the last one, for at most `max_missed` ticks; after that the answer
@@ -65,6 +66,7 @@ class ControllerPeer {
   nanoseconds ticks(double number) const;
   void begin_session();
   void answer_if_ready();
+  void answer_without_reference(std::int64_t tick);
   void answer(const reference_t& reference);
   Instant next_look() const;
   void attend_to_time();
@@ -88,6 +90,7 @@ class ControllerPeer {
   const std::string reference_channel_, command_channel_;
 
   std::vector<Kept> ring_;
+  reference_t none_;            // where there are no references: blank but for its tick
   std::int64_t answered_ = -1;  // the latest tick of this session that has its command
   Instant asked_{0};            // when the latest state came
   bool drained_ = true;         // real time: nothing newer waits to be read

@@ -26,6 +26,7 @@ struct PeerOptions {
   std::int64_t config = 0;   ///< see config_hash.hpp
   ConfigWords config_words;  ///< what it is of
   double rate_hz = 1000;     ///< ticks a second of plant time
+  bool references = true;    ///< there is a planner; without a path nobody sends or awaits REFERENCEs
   /// Later ticks are rejected, but for a plant that holds; and a plant may fall silent after it.
   std::int64_t last_tick = std::numeric_limits<std::int64_t>::max();
   nanoseconds first_wait = std::chrono::seconds(60);  ///< for the first STATE

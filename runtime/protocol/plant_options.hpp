@@ -16,6 +16,7 @@ struct PlantOptions {
   int n = 0;                   ///< measured coordinates: what the plant's messages count
   int n_u = 0;                 ///< motors: what COMMAND's n counts
   std::int64_t last_tick = 0;  ///< N: ticks 0 to N are run
+  bool references = true;      ///< there is a planner: not without a path
   double rate_hz = 1000;       ///< tick k is plant time k / rate_hz
   double speed = 0;            ///< plant seconds a real second; 0: as fast as it goes
   std::int64_t session = 0;    ///< 0: draw one

@@ -211,7 +211,7 @@ PlantPort::Answer PlantPort::wait_while_held() {
 
 // REFERENCEs would wake the plant once a tick for nothing: it hears them only to tell who is missing.
 void PlantPort::listen_for_planner() {
-  if (std::exchange(listens_for_planner_, true)) return;
+  if (!options_.references || std::exchange(listens_for_planner_, true)) return;
   planner_heard_ = false;
   bus_.subscribe<&PlantPort::on_reference>(bus_.channel("REFERENCE"), this);
 }
@@ -251,6 +251,7 @@ void PlantPort::lost_peer(nanoseconds waited) const {
           std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(waited).count()) + " ms; " +
           (dropped.empty() ? "" : "dropped there: " + dropped + "; ") +
           (dropped_.are_answers() ? "the controller is there, but what it answers can't be taken"
+           : !options_.references ? "the controller is missing"
            : planner_heard_       ? reference_channel + " answers, so the controller is missing"
                             : reference_channel + " is silent too, so the planner is missing, or both are") +
           (other_plant_.empty() ? "" : "; " + other_plant_));

@@ -2,6 +2,8 @@
 // A program against libmixloop's headers alone. What it computes is what the commands compute.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include <mixloop/mixloop.hpp>
 
 #include "tests/support/command.hpp"
@@ -189,6 +191,37 @@ TEST(Library, ErrorsHaveCodeAndPlace) {
               Plant(continuous, Plan(continuous));
             }).code(),
             "out_of_range");
+}
+
+TEST(Library, MovesWithoutAPathAndWithoutAnEndEffector) {
+  const ScratchFolder folder;
+  const std::string scene(kTwoRods);
+  folder.write("rods.yaml", scene.substr(0, scene.find("end_effector")));
+  const Experiment free = Experiment::parse(
+      "scene: rods.yaml\nduration: 2 s\ncontroller: {law: torque, torque: [0, 0]}\n"
+      "plant: {integrator: gauss8, initial: [1, 0.5], initial_rates: [0, 2]}\n",
+      folder.file("free.yaml"));
+  const Plan plan(free);
+  EXPECT_EQ(plan.ticks(), 2000);
+  EXPECT_THAT(plan.at(7).psi, ElementsAre(1, 0.5));
+  EXPECT_TRUE(std::isnan(plan.at(7).position[0]));
+
+  const Result by_law = simulate(free);
+  const Result by_own = simulate(free, [](const State&, const Reference& desired, std::span<double> tau) {
+    EXPECT_EQ(desired.psid[0], 0);
+    tau[0] = tau[1] = 0;
+  });
+  EXPECT_EQ(by_law.trajectory_sha256, by_own.trajectory_sha256);
+  EXPECT_TRUE(std::isnan(by_law.max_position_error));
+  ASSERT_TRUE(by_law.energy_drift);
+  EXPECT_LT(*by_law.energy_drift, 1e-12);
+
+  Plant plant(free, plan);
+  EXPECT_THAT(plant.state().psid, ElementsAre(0, 2));
+  Controller controller(free);
+  double tau[2] = {1, 1};
+  controller.torque(plant.measured(), plan.at(0), tau);
+  EXPECT_THAT(tau, ElementsAre(0, 0));
 }
 
 TEST(Library, WhatALawThrowsComesThrough) {

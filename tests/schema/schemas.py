@@ -48,6 +48,7 @@ SECTIONS = {
     "the line": ("experiments.md", "path"),
     "a via point": ("experiments.md", "path"),
     "the controller": ("experiments.md", "controller"),
+    "the state to feed back about": ("experiments.md", "controller"),
     "the controller's safety": ("hil.md", None),
     "the plant": ("experiments.md", "plant"),
     "what holds in real time": ("hil.md", None),
@@ -103,6 +104,11 @@ def required(schema):
     return schema["required"] if "required" in schema else schema["anyOf"][-1]["required"]
 
 
+def alternatives(schema):
+    """What stands in a mapping, one and one alone."""
+    return schema.get("oneOf") or schema.get("anyOf", [{}])[-1].get("oneOf", [])
+
+
 def at(document, path):
     for step in path:
         document = document[step]
@@ -135,6 +141,9 @@ def changed_files_are_refused(source, mixloop, kind, names, schema, wrong):
                 visited.add(title)
                 changes = [("unknown_key", lambda m: m.update(strange_key=1))]
                 changes += [("missing_key", lambda m, k=key: m.pop(k)) for key in required(known[title])]
+                either = [one["required"][0] for one in alternatives(known[title])]
+                changes += [("missing_key", lambda m: [m.pop(key, None) for key in either])] if either else []
+                changes += [("doubly_defined", lambda m, k=key: m.update({k: 1})) for key in set(either) - set(at(document, path))]
                 for code, change in changes:
                     other = copy.deepcopy(document)
                     change(at(other, path))
@@ -183,7 +192,7 @@ def pages_name_the_keys(source, known, wrong):
 def main(source, mixloop):
     source = os.path.realpath(source)
     wrong, known, tried = [], {}, 0
-    for kind, names in (("scene", ["scene.yaml"]), ("experiment", ["experiment.yaml", "line.yaml"])):
+    for kind, names in (("scene", ["scene.yaml"]), ("experiment", ["experiment.yaml", "line.yaml", "free.yaml"])):
         schema = schema_of(mixloop, kind)
         jsonschema.Draft7Validator.check_schema(schema)
         validator = jsonschema.Draft7Validator(schema)

@@ -116,6 +116,18 @@ TEST(Skeleton, WritesAPoseThatReadsBackToTheSameNumbers) {
   EXPECT_EQ(nlohmann::json::parse(pose_json(robot, pose, ""))["note"], pose.note);
 }
 
+TEST(Skeleton, OfAMechanismWithoutAnEndEffectorDrawsNone) {
+  const auto scene = std::make_shared<const Scene>(load_scene(parse_document(
+      "motors: [psi]\ncoordinates: [q]\nconstraints: {q: psi}\n"
+      "transforms: [{from: 0, to: bar, theta: q, a: 1 m}]\nbodies: [{frame: bar, mass: 1 kg}]\n",
+      "bar.yaml")));
+  Skeleton bar(scene, scene->default_parameters());
+  const auto json = nlohmann::json::parse(pose_json(bar, {.k = 1, .psi = {0.5}, .tau = {0}}, ""));
+  EXPECT_TRUE(json["E"][0].is_null());
+  EXPECT_TRUE(json["error"][0].is_null());
+  EXPECT_EQ(json["frames"].size(), 2 * 7u);
+}
+
 // There and back on a line of 1 m, and 1 m off it at the end: laps are drawn once, in no more points than
 // asked for.
 TEST(Path, LeavesOutWhereItWasBefore) {

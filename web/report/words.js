@@ -41,12 +41,30 @@ function torques(run) {
   return list.map((x, i) => `${shown(x)}${unit(i)}`).join(', ');
 }
 
+/** Without a path there are no position errors. */
+const followsPath = (run) => run.inputs?.experiment?.duration === undefined;
+
+/** Of each independent coordinate, of a motion without a path. */
+function finalPosition(run) {
+  const { final_psi: psi, position_units: units } = run.result ?? {};
+  if (!psi) return null;
+  return psi.every((x) => x === null) ? never : psi.map((x, i) => `${shown(x, 9)} ${units?.[i] ?? ''}`).join(', ');
+}
+
+/** A bound's name and its values in the unit that people read. */
+function boundWords({ name, motor, unit }) {
+  const ofMotor = name.startsWith('max_torque');
+  if (ofMotor || name === 'final_psi') return { name: `${name}[${motor}]`, show: (x) => `${shown(x, ofMotor ? undefined : 9)} ${unit}` };
+  return name === 'energy_drift' ? { name, show: (x) => shown(x) } : { name, show: mm };
+}
+
 /** What each run came to. */
 export function summaryTable(runs) {
   const result = (key, as = (x) => x) => (run) =>
     run.result?.[key] === undefined ? null : run.result[key] === null ? never : as(run.result[key]);
   const measured = (run, key, logged) => (run.result?.[key] === undefined ? run.error[logged] : run.result[key]);
   const error = (key, logged) => (run) => {
+    if (!followsPath(run)) return null;
     const value = measured(run, key, logged);
     return value === null ? (run.result ? never : null) : mm(value);
   };
@@ -56,6 +74,8 @@ export function summaryTable(runs) {
     ['… at', (run) => (measured(run, 'time_of_max_position_error', 'time_of_max') === null ? null : `${shown(measured(run, 'time_of_max_position_error', 'time_of_max'))} s`)],
     ['Final position error', error('final_position_error', 'final')],
     ['Root mean square error', error('rms_position_error', 'rms')],
+    ['Final position', (run) => finalPosition(run)],
+    ['Energy drift', result('energy_drift', (x) => `${shown(x)} of the largest energy`)],
     ['Largest torques', (run) => torques(run)],
     ['Diverged at', result('diverged_at', (t) => `${shown(t)} s`)],
     ['Safe state from', result('safe_at', (t) => `${shown(t)} s`)],
@@ -80,10 +100,11 @@ export function boundsTable(runs) {
   const rows = runs.flatMap((run) => {
     const { result } = run;
     if (!result) return [];
-    const bounds = (result.bounds ?? []).map(({ name, motor, least, most, value, held }) => {
-      const torque = motor !== undefined;
-      const show = (x) => (torque ? `${shown(x)} ${torqueUnit(run, motor)}` : mm(x));
-      return [run.label, torque ? `${name}[${motor}]` : name, `${least > 0 ? `${show(least)} to ` : 'at most '}${show(most)}`, value === null ? never : show(value), held];
+    const bounds = (result.bounds ?? []).map((bound) => {
+      const { least, most, value, held } = bound;
+      const { name, show } = boundWords({ ...bound, unit: bound.unit ?? torqueUnit(run, bound.motor) });
+      const both = least > 0 || bound.name === 'final_psi';
+      return [run.label, name, `${both ? `${show(least)} to ` : 'at most '}${show(most)}`, value === null ? never : show(value), held];
     });
     if (result.expects_divergence)
       bounds.push([run.label, 'diverges', 'yes', result.diverged_at === undefined ? 'no' : 'yes', result.diverged_at !== undefined]);

@@ -198,7 +198,8 @@ export class Drawing {
       stretch(this.closures[i][0], place, frames[on].at, 0.006 * this.reach);
       stretch(this.closures[i][1], place, frames[base].at, 0.006 * this.reach);
     });
-    this.hand.position.set(...pose.E);
+    this.hand.visible = pose.E[0] !== null;
+    if (this.hand.visible) this.hand.position.set(...pose.E);
     this.goal.visible = pose.desired[0] !== null;
     if (this.goal.visible) this.goal.position.set(...pose.desired);
     this.goal.quaternion.copy(this.camera.quaternion);

@@ -41,13 +41,14 @@ struct Reference {
   std::span<const double> psi;              ///< the motors', n_u, rad or m
   std::span<const double> psid;             ///< their rates
   std::span<const double> psidd;            ///< and accelerations
-  std::span<const double, 3> position;      ///< the end effector's, inertial axes, m
+  std::span<const double, 3> position;      ///< the end effector's, inertial axes, m; NaN without a path
   std::span<const double, 3> velocity;      ///< m/s
   std::span<const double, 3> acceleration;  ///< m/s^2
 };
 
 /// The references of a whole experiment, worked out and checked before anything moves: a move to the path's
-/// start, then the path. Constant: copies share it, threads too.
+/// start, then the path. Without a path (`duration`) all ticks have one reference: the motors where they
+/// start, at rest, or the state that is fed back about. Constant: copies share it, threads too.
 class MIXLOOP_API Plan {
  public:
   /// Throws Error where the path can't be followed: where on it, and why.

@@ -10,8 +10,8 @@ namespace mixloop::v1 {
 /// construction and copying.
 class MIXLOOP_API Plant {
  public:
-  /// At tick 0, at rest where the experiment begins. Throws Error, also for `plant.control: continuous`,
-  /// which has no ticks to command ("out_of_range").
+  /// At tick 0, where the experiment begins, at rest unless it has initial_rates. Throws Error, also for
+  /// `plant.control: continuous`, which has no ticks to command ("out_of_range").
   Plant(const Experiment& experiment, const Plan& plan);
   Plant(const Plant&);               ///< goes on from the same state
   Plant(Plant&&) noexcept;           ///< the other may only be assigned to or destroyed

@@ -8,7 +8,7 @@
 
 namespace mixloop::v1 {
 
-/// What came of a run, in SI. Numbers that were never measured are NaN.
+/// What came of a run, in SI. Numbers that were never measured are NaN, position errors without a path too.
 struct Result {
   std::string verdict;                    ///< "held", "missed", "diverged"
   std::vector<std::string> missed;        ///< each bound of `expect` that was missed, in words
@@ -23,6 +23,9 @@ struct Result {
   std::vector<double> psi;        ///< n a tick, from tick 0 on
   std::vector<double> psid;       ///< their rates
   std::vector<double> tau;        ///< n_u a tick, as commanded
+  /// Where it was asked for or there is no path: the largest |E - E_0 - W| of all ticks over the largest |E|,
+  /// E the mechanism's energy, W the motors' work.
+  std::optional<double> energy_drift;
 };
 
 /// The closed loop in this process: the bytes of `mixloop simulate`. Throws Error.

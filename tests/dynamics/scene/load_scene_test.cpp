@@ -153,6 +153,14 @@ TEST(LoadScene, LinearMotorsAreDeclared) {
   EXPECT_EQ(scene.home, (std::vector<double>{0.1, 0}));
 }
 
+TEST(LoadScene, MayNameNoEndEffector) {
+  const Scene scene = loaded(with("end_effector: {frame: 2, point: [0, 0, 0], axes: [x, y]}", ""));
+  EXPECT_FALSE(scene.end_effector.named);
+  EXPECT_EQ(scene.end_effector.frame, 0) << "the ground's origin stands for it";
+  EXPECT_TRUE(scene.end_effector.point[2].is_zero());
+  EXPECT_NE(scene.canonical, loaded(kScene).canonical);
+}
+
 TEST(LoadScene, TheCanonicalTextIsOfTheMechanismNotItsSpelling) {
   const std::string canonical = loaded(kScene).canonical;
   EXPECT_EQ(loaded("# a comment\n" + with("name: rig", "name: other")).canonical, canonical);

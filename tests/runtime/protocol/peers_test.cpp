@@ -73,6 +73,22 @@ TEST_F(Controller, AnswersWhenStateAndReferenceOfTheTickAreThere) {
   EXPECT_EQ(report().answered, 2U);
 }
 
+TEST_F(Controller, AwaitsNoReferencesWhereThereAreNone) {
+  PeerOptions options = kOptions;
+  options.references = false;
+  start(options);
+  script_.send_reference(0, 10);  // nobody listens
+  script_.send_state(0);
+  expect_command(0, 0);
+  script_.send_state(5);
+  expect_command(5, 0);
+  script_.send_state(5);
+  expect_command(5, 0);
+  const PeerReport& told = report();
+  EXPECT_EQ(told.answered, 2U);
+  EXPECT_EQ(told.rejects.total(), 0U);
+}
+
 TEST_F(Controller, RepeatsTheSameBytesForARepeatedState) {
   start();
   script_.send_state(0);
