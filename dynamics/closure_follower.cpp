@@ -62,6 +62,7 @@ void ClosureFollower::set_parameters(std::span<const double> parameters) noexcep
     if (step(scene_->home, 0) != Status::ok) break;
   }
   closures_.set_up(parameters);
+  moved_ = 0;
 }
 
 void ClosureFollower::put_back(std::span<const double> anchor) noexcept {
@@ -70,6 +71,7 @@ void ClosureFollower::put_back(std::span<const double> anchor) noexcept {
 
 ClosureWatch ClosureFollower::watch() const {
   ClosureWatch watch;
+  watch.moved = moved_;
   const double* row = watched_.data() + sizes_.started * (sizes_.n + 1);
   for (std::size_t i = 0; i < sizes_.rows; ++i)
     if (!(std::abs(row[i]) <= watch.residual)) watch.residual = std::abs(row[i]);
@@ -153,6 +155,7 @@ Status ClosureFollower::step(std::span<const double> psi, double t) noexcept {
 Status ClosureFollower::accept(std::span<const double> psi, double t) noexcept {
   const double way = way_to(psi, t);
   if (!std::isfinite(way)) return Status::not_finite;
+  moved_ = way;
   const int steps = 1 + static_cast<int>(std::min(way / kFarthest * 4, 1e5));
   if (steps == 1 || sizes_.started == 0) return step(psi, t);
   const double* from = anchor_.data() + sizes_.start + sizes_.started * (sizes_.n + 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -14,6 +15,18 @@ namespace mixloop {
 struct ClosureWatch {
   double residual = 0;                   ///< the largest of all rows, m or rad
   std::span<const double> conditions{};  ///< of each block, 1 at best (trace_closures)
+  double moved = 0;                      ///< since the pose before, rad or of the scene's size
+
+  /// The block that is nearest to a singular pose.
+  std::size_t worst() const {
+    return static_cast<std::size_t>(std::max_element(conditions.begin(), conditions.end()) -
+                                    conditions.begin());
+  }
+  /// A singular pose lies within what the last step moved, or round-off.
+  bool is_singular() const {
+    const double condition = conditions.empty() ? 0 : conditions[worst()];
+    return !(condition * std::max(moved, 1e-8) < 0.5);
+  }
 };
 
 /// Where a scene's closures are solved from, and the solving of those that take corrections: the anchor is
@@ -67,6 +80,7 @@ class ClosureFollower {
   std::vector<double> lengths_;  ///< of the independent coordinates
   std::vector<double> watched_;  ///< what closures_ gave last
   std::vector<double> input_, output_, psi_;
+  double moved_ = 0;
 };
 
 }  // namespace mixloop

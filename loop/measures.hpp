@@ -25,7 +25,11 @@ struct Measures {
   std::int64_t ticks = 0;             ///< the last tick recorded; N where the run is whole
   std::string trajectory_sha256;      ///< of the doubles t, psi, psi', tau of ticks 0 to `ticks`; or empty
   std::optional<double> diverged_at;  ///< s
-  std::optional<double> safe_at;      ///< s: from there on the plant was in its safe state, and not judged
+  std::optional<std::string>
+      no_way_on;  ///< why it diverged, where closures ended it: which, when, in which pose
+  std::optional<double> closure_residual;   ///< m or rad, the largest; where chains close
+  std::optional<double> closure_condition;  ///< the worst of all blocks and ticks, 1 at best (trace.hpp)
+  std::optional<double> safe_at;         ///< s: from there on the plant was in its safe state, and not judged
   std::optional<double> interrupted_at;  ///< s
   std::optional<Vector> final_psi;       ///< n, at the last tick; without a path, or where it is expected
   /// The largest |E - E_0 - W| of all ticks over the largest |E|: E is kinetic energy and potential, W the

@@ -85,6 +85,11 @@ void RecordedPlant::take(std::span<const Fault> faults) {
 }
 
 bool RecordedPlant::record_state() {
+  if (const auto watch = plant().closures()) {
+    if (std::string why = plant().no_way_on(); !why.empty())
+      return recorder_.no_way_on(plant().tick(), std::move(why));
+    recorder_.closures(*watch);
+  }
   return recorder_.state(plant().tick(), plant().psi(), plant().psid(), plant().work());
 }
 

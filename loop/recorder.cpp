@@ -84,6 +84,17 @@ bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<cons
   return true;
 }
 
+void Recorder::closures(const ClosureWatch& watch) {
+  const double condition = watch.conditions[watch.worst()];
+  measures_.closure_residual = std::max(measures_.closure_residual.value_or(0), watch.residual);
+  measures_.closure_condition = std::max(measures_.closure_condition.value_or(1), condition);
+}
+
+bool Recorder::no_way_on(std::int64_t k, std::string why) {
+  measures_.no_way_on = std::move(why);
+  return diverged(k);
+}
+
 bool Recorder::command(std::int64_t k, std::span<const double> tau, std::span<const double> applied) {
   if (!all_finite(tau)) return diverged(k);
   double* to = row(k);

@@ -27,6 +27,10 @@ class Recorder {
   /// error is past its limit or something is not finite; then the tick is not recorded. Ticks past the plan's
   /// end (a plant that holds on) are watched, and the last two of them kept.
   bool state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work);
+  /// What is watched of the closures at a tick.
+  void closures(const ClosureWatch& watch);
+  /// The mechanism can't go on from tick k, and why: false.
+  bool no_way_on(std::int64_t k, std::string why);
 
   /// Takes the command of tick k, which completes the tick. False where it is not finite.
   bool command(std::int64_t k, std::span<const double> tau, std::span<const double> applied);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plant/plant.hpp"
 
+#include <fmt/format.h>
+
 #include "plant/tick.hpp"
 
 namespace mixloop {
@@ -29,6 +31,8 @@ Plant::Plant(Equations::Workspace dynamics, const PlantSettings& settings, doubl
       rows_(stage_rows(settings.integrator)),
       faults_may_come_(settings.faults.injected),
       state_{.motion = state_at(model(), psi0, psid0)} {
+  ideal_.dynamics().hold_anchor();
+  follow_closures();
   if (!Hardware::needed(settings)) return;
   hardware_.emplace(settings, ideal_.dynamics().scene(), rate_hz);
   state_.hardware = hardware_->state();
@@ -37,8 +41,39 @@ Plant::Plant(Equations::Workspace dynamics, const PlantSettings& settings, doubl
 
 void Plant::put_back(const PlantState& state) {
   state_ = state;
+  if (auto& closures = ideal_.dynamics().closures()) closures.put_back(state_.anchor);
   if (const auto* faults = this->faults())
     ideal_.dynamics().set_parameters(faults->parameters, faults->friction);
+}
+
+// At every tick, and nowhere else: all stages and the Jacobian of a tick start from its beginning, so that
+// whoever goes through it again gets the same bytes.
+void Plant::follow_closures() {
+  auto& closures = ideal_.dynamics().closures();
+  if (!closures) return;
+  is_closed_ = closures.accept(psi(), time()) == Status::ok;
+  state_.anchor.assign(closures.anchor().begin(), closures.anchor().end());
+}
+
+std::optional<ClosureWatch> Plant::closures() const {
+  const auto& closures = ideal_.dynamics().closures();
+  if (!closures) return std::nullopt;
+  return closures.watch();
+}
+
+std::string Plant::no_way_on() const {
+  const auto watch = closures();
+  if (!watch || (is_closed_ && !watch->is_singular())) return {};
+  const Scene& scene = equations().scene();
+  const auto& block = scene.blocks[watch->worst()];
+  std::string pose;
+  for (std::size_t i = 0; i < scene.independent.size(); ++i)
+    pose += fmt::format(", {} = {:.6g}", scene.independent[i].name, psi()[i]);
+  return fmt::format(
+      "the closure '{}' {} at {:.6g} s{} (condition {:.3g})",
+      scene.closures[static_cast<std::size_t>(block.rows[0].closure)].name,
+      is_closed_ ? "is at a singular pose" : "can't be solved beyond a singular pose or its reach", time(),
+      pose, watch->conditions[watch->worst()]);
 }
 
 void Plant::command(std::span<const double> tau) { take_command(model(), state_.motion, tau, Drives{*this}); }

@@ -81,6 +81,12 @@ class Plant {
   template <class Control>
   void advance_continuously(const Control& control);
 
+  /// What is watched of the closures at tick(); nothing where no chain closes.
+  std::optional<ClosureWatch> closures() const;
+  /// Why the mechanism can't go on from tick(): its closures are at a singular pose, or beyond their reach.
+  /// Empty where it can.
+  std::string no_way_on() const;
+
   const Equations& equations() const { return ideal_.dynamics().equations(); }
   /// psi'' at the state in hand with `applied()`.
   void acceleration(std::span<double> psidd);
@@ -90,6 +96,7 @@ class Plant {
   const PlantModel& model() const { return ideal_.model(); }
   void take(std::span<const double> tau);
   void begin_tick();
+  void follow_closures();
   void take_changes();
   void take_by_hardware(std::span<const double> tau);
   void integrate_driven(double t, double length);
@@ -101,6 +108,7 @@ class Plant {
   bool faults_may_come_;              ///< by inject
   std::optional<Hardware> hardware_;  ///< none: ideal
   PlantState state_;
+  bool is_closed_ = true;  ///< closures hold at tick()
 };
 
 template <class Control>

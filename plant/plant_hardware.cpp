@@ -23,6 +23,7 @@ bool Plant::inject(const Fault& fault) {
 }
 
 void Plant::begin_tick() {
+  follow_closures();
   if (!hardware_) return;
   if (hardware_->faults) hardware_->faults->begin(state_.hardware.faults, tick());
   take_changes();
@@ -38,7 +39,8 @@ void Plant::take_changes() {
 
 /// Through the motors' faults, saturation and the drives.
 void Plant::take_by_hardware(std::span<const double> tau) {
-  auto& [motion, hardware] = state_;
+  auto& motion = state_.motion;
+  auto& hardware = state_.hardware;
   if (tau.data() != hardware.asked.data()) hardware.asked = map_of(tau);
   hardware.was_asked = true;
   for (std::size_t i = 0; i < tau.size(); ++i)
@@ -53,7 +55,8 @@ void Plant::take_by_hardware(std::span<const double> tau) {
 /// Pieces end where a torque has a kink.
 void Plant::integrate_driven(double t, double length) {
   const auto& actuators = hardware_->actuators;
-  auto& [motion, hardware] = state_;
+  auto& motion = state_.motion;
+  auto& hardware = state_.hardware;
   double done = 0;
   while (done < length) {
     double end = actuators ? actuators->next_kink(hardware.actuators, done) : length;

@@ -45,6 +45,7 @@ struct HardwareState {
 struct PlantState {
   IdealState<double> motion;
   HardwareState hardware;
+  std::vector<double> anchor;  ///< where closures are solved from (ClosureFollower); empty where none are
 
   bool operator==(const PlantState&) const = default;
 };

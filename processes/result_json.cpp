@@ -119,6 +119,9 @@ void fields(const Way& f, M& m) {
   f("ticks", m.ticks);
   f("trajectory_sha256", m.trajectory_sha256);
   f("diverged_at", m.diverged_at);
+  f("no_way_on", m.no_way_on);
+  f("closure_residual", m.closure_residual);
+  f("closure_condition", m.closure_condition);
   f("safe_at", m.safe_at);
   f("interrupted_at", m.interrupted_at);
 }

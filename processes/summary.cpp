@@ -15,7 +15,9 @@ namespace {
 std::string endings(const Experiment& experiment, const Result& result) {
   const Measures& measures = result.run->measures;
   std::string text;
-  if (measures.diverged_at)
+  if (measures.no_way_on)
+    text += fmt::format("  ended at {:.6g} s: {}\n", *measures.diverged_at, *measures.no_way_on);
+  else if (measures.diverged_at)
     text += fmt::format(
         "  diverged at {:.6g} s: {}a value was not finite; nothing of that tick was published\n",
         *measures.diverged_at,

@@ -14,7 +14,9 @@ bool timed(const Formula& formula) {
 
 bool constraints_depend_on_time(const Scene& scene) {
   return std::any_of(scene.coordinates.begin(), scene.coordinates.end(),
-                     [](const auto& coordinate) { return timed(coordinate.constraint); });
+                     [](const auto& coordinate) { return timed(coordinate.constraint); }) ||
+         std::any_of(scene.closures.begin(), scene.closures.end(),
+                     [](const auto& closure) { return timed(closure.value); });
 }
 
 bool loads_depend_on_time(const Scene& scene) {
