@@ -33,6 +33,8 @@ struct SceneDraft {
                                 const Scope& scope);
   /// The frame that the entry names under `frame`.
   int frame(const Mapping& entry) const;
+  /// The coordinate that is equal to an independent one and has its name; made where there is none yet.
+  int as_coordinate(int independent);
   /// The coordinate that the entry names under `coordinate`.
   int coordinate(const Mapping& entry) const;
 };
