@@ -145,6 +145,17 @@ class WideProcedure {
       const Wide size = abs(workspace_.q[load.coordinate]) + slopes * reach + abs(load.rest);
       sum += load.stiffness * size * size / 2;
     }
+    const LineState<Wide> at{psi(), psid(), workspace_.q, workspace_.qd, t_};
+    for (std::size_t i = 0; i < model_.along_loads.size(); ++i) {
+      const auto& [law, names] = model_.along_loads[i];
+      Wide size = abs(detail::along_value(model_, i, at)) + abs(law.rest);
+      for (const int name : names) size += abs(detail::along_partial(model_, i, at, name)) * reach;
+      sum += law.stiffness * size * size / 2;
+    }
+    for (const auto& load : model_.between_loads) {
+      const Wide size = detail::between(model_, load, at, workspace_.line).at.norm() + load.law.rest + reach;
+      sum += load.law.stiffness * size * size / 2;
+    }
     return sum;
   }
 
