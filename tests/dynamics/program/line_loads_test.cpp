@@ -75,24 +75,30 @@ std::vector<double> values_of(const Routine& routine, Purpose purpose, const Sce
 }
 
 /// As Certification: in units in the last place of the terms' size, at most thrice as far as the procedure.
+/// Of the linearisation, whose terms' size knows nothing of how loads curve, twice that.
 void expect_exact(const std::shared_ptr<const Scene>& scene, std::initializer_list<Tracing> tracings,
                   std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  for (int k = 0; k < 3; ++k) {
-    const Sample sample = random_sample(*scene, random, 2.0);
-    for (const Purpose purpose : kPurposes) {
-      const Oracle truth = oracle(scene, scene->default_parameters(), purpose, sample);
-      const auto error = [&](const Routine& routine) {
-        return error_in_ulps(truth, values_of(routine, purpose, *scene, sample));
-      };
-      const double reference = error(*reference_routine(scene, purpose));
-      for (const Tracing tracing : tracings) {
-        const Program program = trace(scene, purpose, tracing);
-        if (tracing == Tracing::articulated && !signature(purpose).gives_psidd) continue;  // has none
-        ASSERT_FALSE(program.outputs.empty()) << name_of(purpose) << ", " << name_of(tracing);
-        EXPECT_LE(error(Interpreter(program)), std::max(24.0, 3 * reference))
-            << name_of(purpose) << ", " << name_of(tracing) << ", seed " << seed;
-      }
+  for (const Purpose purpose : kPurposes) {
+    std::vector<std::pair<Sample, Oracle>> states;
+    std::mt19937_64 random(seed);
+    for (int k = 0; k < 4; ++k) {
+      const Sample sample = random_sample(*scene, random, 2.0);
+      states.emplace_back(sample, oracle(scene, scene->default_parameters(), purpose, sample));
+    }
+    const auto worst = [&](const Routine& routine) {
+      double error = 0;
+      for (const auto& [sample, truth] : states)
+        error = std::max(error, error_in_ulps(truth, values_of(routine, purpose, *scene, sample)));
+      return error;
+    };
+    const double reference = worst(*reference_routine(scene, purpose));
+    for (const Tracing tracing : tracings) {
+      if (tracing == Tracing::articulated && !signature(purpose).gives_psidd) continue;  // has none
+      const Program program = trace(scene, purpose, tracing);
+      ASSERT_FALSE(program.outputs.empty()) << name_of(purpose) << ", " << name_of(tracing);
+      const double most = std::max(24.0, 3 * reference);
+      EXPECT_LE(worst(Interpreter(program)), purpose == Purpose::linearisation ? 2 * most : most)
+          << name_of(purpose) << ", " << name_of(tracing) << ", seed " << seed;
     }
   }
 }

@@ -125,6 +125,7 @@ std::string spatial_arm(bool by_poses) {
          "gravity: [0, 0, -9.81]\nend_effector: {frame: 6, point: [0.1, 0, 0]}\n";
 }
 
+// Bodies behind a fixed pose are lumped before the run: poses take fewer operations, if anything.
 TEST(PosePrograms, ASpatialArmIsTheSameEitherWay) {
   const auto table = posed(spatial_arm(false)), poses = posed(spatial_arm(true));
   for (const Purpose purpose : {Purpose::forward_dynamics, Purpose::mass_matrix, Purpose::bias,
@@ -133,7 +134,8 @@ TEST(PosePrograms, ASpatialArmIsTheSameEitherWay) {
       const Program one = trace(table, purpose, tracing), other = trace(poses, purpose, tracing);
       if (one.outputs.empty()) continue;  // the articulated one's
       const std::string what = fmt::format("{}, {}", name_of(purpose), name_of(tracing));
-      EXPECT_EQ(one.run_operations().text(), other.run_operations().text()) << what;
+      EXPECT_LE(other.run_operations().flops(), one.run_operations().flops()) << what;
+      EXPECT_EQ(other.run_operations().sincos, one.run_operations().sincos) << what;
       expect_same_values(table, one, poses, other, 1e-13, what);
     }
 }
