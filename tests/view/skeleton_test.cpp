@@ -100,7 +100,7 @@ end_effector: {frame: tip}
     names.push_back(frame["name"]);
     joints += frame.contains("coordinate");
   }
-  EXPECT_THAT(names, ElementsAre("0", "arm", "", "", "", "", "rod", "tip"));
+  EXPECT_THAT(names, ElementsAre("0", "arm", "", "", "", "rod", "tip"));
   EXPECT_EQ(joints, 2U);
   const std::size_t joint = description["motors"][1]["joint"];
   EXPECT_EQ(description["frames"][joint]["coordinate"], "b");
