@@ -11,6 +11,7 @@
 #include "dynamics/scene/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/random_mechanism.hpp"
+#include "tests/support/allocation_counter.hpp"
 
 namespace mixloop::testing {
 namespace {
@@ -231,6 +232,22 @@ TEST(LineLoadPrograms, SayThatADistanceOfZeroHasNoDirection) {
       sample.psi[0] = 0;
       EXPECT_EQ(dynamics.evaluate(Purpose::mass_matrix, sample.arguments(), M), Status::ok);
     }
+}
+
+TEST(LineLoadPrograms, DoNotAllocate) {
+  if (!AllocationCounter::works()) GTEST_SKIP() << "a sanitizer has its own malloc";
+  const auto scene = loaded_scene(kSpatial);
+  std::mt19937_64 random(6);
+  const Sample sample = random_sample(*scene, random);
+  for (const Evaluation how : {Evaluation::reference, Evaluation::interpreter}) {
+    Equations::Workspace dynamics(equations_of(scene, how, {Purpose::bias, Purpose::energy}),
+                                  scene->default_parameters());
+    std::vector<double> h = dynamics.outputs(Purpose::bias), energy = dynamics.outputs(Purpose::energy);
+    AllocationCounter counter;
+    dynamics.evaluate(Purpose::bias, sample.arguments(), h);
+    dynamics.evaluate(Purpose::energy, sample.arguments(), energy);
+    EXPECT_EQ(counter.count(), 0U) << name_of(how);
+  }
 }
 
 TEST(LineLoadPrograms, PassThroughZeroWithoutARest) {
