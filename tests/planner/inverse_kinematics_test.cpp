@@ -92,7 +92,8 @@ TEST(InverseKinematics, KnowsTheFamilyByPosesToo) {
                              "}, {from: 1, to: 4, theta: q3, a: L4}, {from: 4, to: 5, theta: q6, a: L5},"
                              "{from: 5, to: 6, theta: q4, a: L6}]"}});
   };
-  InverseKinematics shipped(paper_robot()), poses(posed("rpy: [90 deg, 0, 0]"));
+  const Model<double> shipped_model = paper_robot(), posed_model = posed("rpy: [90 deg, 0, 0]");
+  InverseKinematics shipped(shipped_model), poses(posed_model);
   ASSERT_TRUE(poses.arm());
   const Vector psi = Vector3d(0.3, -16, 17);
   const Eigen::Vector3d place = shipped.forward(psi, Vector::Zero(3), Vector::Zero(3), 0).position;
