@@ -77,6 +77,11 @@ nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<cons
 
   nlohmann::json json;
   const Vector psidd = forward_dynamics<double>(model, In(psi), In(psid), In(tau), t, ws);
+  if (!psidd.allFinite())
+    throw InputError(
+        "not_finite", {"--psi"},
+        "the equations of motion are not finite at this pose: a formula has no value there, or the "
+        "ends of a spring or damper between points meet, which gives it no direction");
   json["psidd"] = list(psidd);
   json["mass_matrix"] = rows(mass_matrix<double>(model, In(psi), t, ws));
   json["bias"] = list(bias<double>(model, In(psi), In(psid), t, ws));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "dynamics/procedure/constraints.hpp"
+#include "dynamics/scene/end_effector_chain.hpp"
 
 namespace mixloop {
 namespace {
@@ -72,7 +73,9 @@ double sign_or_one(double x) { return x < 0 ? -1 : 1; }
 
 }  // namespace
 
-std::optional<ThreeAxisArm> find_three_axis_arm(const Model<double>& model) {
+std::optional<ThreeAxisArm> find_three_axis_arm(const Model<double>& whole) {
+  const auto model =
+      make_model<double>(with_shortest_chain(whole.scene), std::span<const double>(whole.parameters));
   const auto chain = chain_of(model);
   if (!has_the_form(model, chain)) return std::nullopt;
   const Link &first = *chain[0], &second = *chain[1], &third = *chain[2];

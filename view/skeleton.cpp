@@ -73,10 +73,12 @@ std::vector<Skeleton::Closure> Skeleton::find_closures(const std::vector<Posture
   };
   std::vector<Closure> closures;
   for (std::size_t leaf = 1; leaf < count; ++leaf) {
-    const auto parent = static_cast<std::size_t>(model_.links[leaf - 1].parent);
+    std::size_t parent = leaf;  // past the frames amid a pose, which have no name
+    do parent = static_cast<std::size_t>(model_.links[parent - 1].parent);
+    while (scene_->frames[parent].empty());
     std::size_t nearest = leaf;
     for (std::size_t on = 0; is_leaf[leaf] && on < count; ++on) {
-      if (on == leaf || on == parent || !stands_still(leaf, on)) continue;
+      if (on == leaf || on == parent || scene_->frames[on].empty() || !stands_still(leaf, on)) continue;
       if (nearest == leaf || seen(poses[0], leaf, on).norm() < seen(poses[0], leaf, nearest).norm() - kSame)
         nearest = on;
     }

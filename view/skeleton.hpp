@@ -27,10 +27,10 @@ class Skeleton {
   Eigen::Vector3d end_effector() const;
   std::span<const double> q() const { return {ws_.q.data(), static_cast<std::size_t>(ws_.q.size())}; }
 
-  /// What never moves, as the page reads it: frames (name, parent, joint's coordinate, prismatic, its origin
-  /// at home), bodies (name, frame, mass, center_of_mass), motors (name, linear, joint: the frame at whose
-  /// joint its torque is shown), closures (see closures()), solids (frame, shape, size,
-  /// radius, from, to: see Scene::Solid), end_effector {frame, point}.
+  /// What never moves, as the page reads it: frames (name, empty of those amid a pose, parent, joint's
+  /// coordinate, prismatic, its origin at home), bodies (name, frame, mass, center_of_mass), motors (name,
+  /// linear, joint: the frame at whose joint its torque is shown), closures (see closures()), solids (frame,
+  /// shape, size, radius, from, to: see Scene::Solid), end_effector {frame, point}.
   nlohmann::json description() const;
 
   /// Where a branch of the tree ends on another body: frame `leaf`'s origin stands still in frame `on`.

@@ -7,17 +7,30 @@ namespace mixloop {
 
 namespace detail {
 
+/// What may vary of a transform.
+template <class T>
+struct Varying {
+  T cosine, sine;  ///< of theta
+  T s;
+};
+
+template <class T>
+Varying<T> varying(const typename Model<T>::Link& link, const Vec<T>& q) {
+  using std::cos, std::sin;
+  Varying<T> now{link.cos_theta, link.sin_theta, link.s};
+  if (link.coordinate >= 0 && link.prismatic) now.s = link.scale * q[link.coordinate] + link.s;
+  if (link.coordinate >= 0 && !link.prismatic) {
+    const T theta = link.scale * q[link.coordinate] + link.theta;
+    now.cosine = cos(theta);
+    now.sine = sin(theta);
+  }
+  return now;
+}
+
 /// upper three rows.
 template <class T>
 Mat34<T> transform(const typename Model<T>::Link& link, const Vec<T>& q) {
-  using std::cos, std::sin;
-  T c = link.cos_theta, s = link.sin_theta, d = link.s;
-  if (link.coordinate >= 0 && link.prismatic) d = link.scale * q[link.coordinate] + link.s;
-  if (link.coordinate >= 0 && !link.prismatic) {
-    const T theta = link.scale * q[link.coordinate] + link.theta;
-    c = cos(theta);
-    s = sin(theta);
-  }
+  const auto [c, s, d] = varying<T>(link, q);
   Mat34<T> A;
   A << c, -(s * link.cos_alpha), s * link.sin_alpha, link.a * c,  //
       s, c * link.cos_alpha, -(c * link.sin_alpha), link.a * s,   //

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "dynamics/procedure/matrix.hpp"
@@ -53,6 +54,21 @@ struct Model {
     std::array<Vec3<T>, 2> across;   ///< of parallel: perpendicular to the first axis and to each other
   };
 
+  struct SpringDamper {
+    T stiffness{0}, rest{0}, damping{0};
+  };
+  struct AlongLoad {
+    SpringDamper law;
+    std::vector<int> names;  ///< the symbols that vary in its formula: t, psi and q, ascending
+  };
+  struct BetweenLoad {
+    SpringDamper law;
+    bool stretches = false;                 ///< a spring with a rest: it needs the length
+    bool damps = false;                     ///< it needs the length's rate
+    std::array<Vec3<T>, 2> point;           ///< in the ends' own frames
+    std::array<std::vector<int>, 2> chain;  ///< links from each end's frame down to where the two part
+  };
+
   std::shared_ptr<const Scene> scene;
   std::vector<T> parameters;
   std::vector<Link> links;  ///< link i makes frame i + 1
@@ -60,6 +76,8 @@ struct Model {
   std::vector<Load> loads;
   std::vector<CoordinateLoad> coordinate_loads;
   std::vector<Closure> closures;
+  std::vector<AlongLoad> along_loads;
+  std::vector<BetweenLoad> between_loads;
   Vec3<T> gravity;
   Vec3<T> end_effector_point;
 
@@ -118,6 +136,26 @@ std::array<Vec3<T>, 2> across(const Vec3<T>& axis, int least) {
   const Vec3<T> two{axis[1] * one[2] - axis[2] * one[1], axis[2] * one[0] - axis[0] * one[2],
                     axis[0] * one[1] - axis[1] * one[0]};
   return {one, two};
+}
+
+/// The symbols of a formula that vary, each once.
+inline std::vector<int> varying_names(const Formula& formula, const Symbols& symbols) {
+  std::set<int> names;
+  for (const auto& node : formula.nodes)
+    if (node.op == Formula::Operator::symbol && !symbols.is_parameter(node.symbol)) names.insert(node.symbol);
+  return {names.begin(), names.end()};
+}
+
+/// Of two frames, the links from each down to where their chains part.
+inline std::array<std::vector<int>, 2> parted_chains(const Scene& scene, int one, int other) {
+  std::array<std::vector<int>, 2> chains;
+  while (one != other) {
+    const bool first = one > other;  // parents come first
+    int& outer = first ? one : other;
+    chains[first ? 0 : 1].push_back(outer - 1);
+    outer = scene.transforms[static_cast<std::size_t>(outer - 1)].parent;
+  }
+  return chains;
 }
 
 }  // namespace detail
@@ -201,6 +239,20 @@ Model<T> make_model(const std::shared_ptr<const Scene>& scene, std::span<const T
     if (of_axes) made.across = detail::across<T>(made.vectors[0], closure.least_axis);
     model.closures.push_back(std::move(made));
   }
+  const auto law = [&](const Scene::SpringDamper& said) {
+    T damping = number(said.damping);
+    if (scene->friction_factor) damping *= parameters[scene->parameters.size()];
+    return typename Model<T>::SpringDamper{number(said.stiffness), number(said.rest), damping};
+  };
+  for (const auto& load : scene->along_loads)
+    model.along_loads.push_back({law(load.law), detail::varying_names(load.along, symbols)});
+  for (const auto& load : scene->between_loads)
+    model.between_loads.push_back(
+        {.law = law(load.law),
+         .stretches = !load.law.stiffness.is_zero() && !load.law.rest.is_zero(),
+         .damps = !load.law.damping.is_zero(),
+         .point = {vector(load.ends[0].point), vector(load.ends[1].point)},
+         .chain = detail::parted_chains(*scene, load.ends[0].frame, load.ends[1].frame)});
   model.gravity = vector(scene->gravity);
   model.end_effector_point = vector(scene->end_effector.point);
   return model;

@@ -4,6 +4,7 @@
 #include "dynamics/procedure/bodies.hpp"
 #include "dynamics/procedure/constraints.hpp"
 #include "dynamics/procedure/ldlt.hpp"
+#include "dynamics/procedure/line_loads.hpp"
 
 /// Dado's procedure, equations (1) to (32), on any scalar T: double evaluates, a wide float is the oracle,
 /// a recording scalar gives the graph of the computation. Signs: M Psi'' + h = tau, M = -DM positive
@@ -26,6 +27,7 @@ void project_bias(const Model<T>& model, Workspace<T>& ws) {
   ws.load.noalias() = ws.S.lazyProduct(ws.q_bias);
   ws.load += ws.a;
   for (int i = 0; i < model.n(); ++i) ws.h[i] = ws.C.col(i).dot(ws.load);
+  if (!model.along_loads.empty()) ws.h += ws.on_psi;
 }
 
 template <class T>
@@ -37,6 +39,8 @@ void assemble(const Model<T>& model, std::span<const T> psi, std::span<const T> 
   frame_rates(model, ws);
   dynamic_matrix(model, ws);
   dynamic_vector(model, t, ws);
+  ws.on_psi.setConstant(T(0));
+  add_line_loads(model, {psi, psid, ws.q, ws.qd, t}, ws.line, ws.a, ws.on_psi);
   project_bias(model, ws);
 }
 
@@ -130,6 +134,8 @@ Energy<T> energy(const Model<T>& model, std::span<const T> psi, std::span<const 
     result.potential -= body.mass * model.gravity.dot(place);
   }
   result.potential += spring_potential(model, ws.q);
+  if (!model.along_loads.empty() || !model.between_loads.empty())
+    result.potential += line_potential(model, {psi, psid, ws.q, ws.qd, t}, ws.line);
   return result;
 }
 

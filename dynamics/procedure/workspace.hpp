@@ -22,6 +22,14 @@ struct Energy {
   T potential{0};  ///< of gravity, zero at the inertial frame's origin, and of springs
 };
 
+/// A link on the way from a load's end to where its chains part: the end, seen from the parent's origin in
+/// axes turned by theta, and theta's cosine and sine.
+template <class T>
+struct LineStep {
+  Vec3<T> arm;
+  T cosine{1}, sine{0};
+};
+
 /// What an evaluation of the procedure writes; sized once, for one model.
 template <class T>
 struct Workspace {
@@ -44,7 +52,9 @@ struct Workspace {
         h(model.n()),
         out(model.n()),
         L(model.n(), model.n()),
-        load(model.m()) {
+        load(model.m()),
+        on_psi(Vec<T>::Zero(model.n())),
+        line(model.between_loads.empty() ? 0 : model.links.size()) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
       auto& frame = frames[i];
       frame.T_0 << T(1), T(0), T(0), T(0), T(0), T(1), T(0), T(0), T(0), T(0), T(1), T(0);
@@ -80,14 +90,16 @@ struct Workspace {
   std::function<void(const Model<T>&, std::span<const T> psi, const T& t, Workspace&)> solve = nullptr;
   std::vector<SmallSystem<T>> systems;  ///< a block: its rows' slopes by its unknowns
   std::vector<Frame> frames;
-  Mat<T> D, O;    ///< 3 x path: (9), (11) of the body in hand
-  Mat<T> S;       ///< m x m: -sum [DD_i] (25)
-  Vec<T> a;       ///< m: -sum [AD_i]^T (26)
-  Mat<T> SC;      ///< m x n: S C
-  Mat<T> M;       ///< n x n
-  Vec<T> h, out;  ///< n
-  Mat<T> L;       ///< n x n: LDL^T of M
-  Vec<T> load;    ///< m
+  Mat<T> D, O;                    ///< 3 x path: (9), (11) of the body in hand
+  Mat<T> S;                       ///< m x m: -sum [DD_i] (25)
+  Vec<T> a;                       ///< m: -sum [AD_i]^T (26)
+  Mat<T> SC;                      ///< m x n: S C
+  Mat<T> M;                       ///< n x n
+  Vec<T> h, out;                  ///< n
+  Mat<T> L;                       ///< n x n: LDL^T of M
+  Vec<T> load;                    ///< m
+  Vec<T> on_psi;                  ///< n: what loads along formulas take on psi itself
+  std::vector<LineStep<T>> line;  ///< of the load between points in hand, a link each
   EndEffectorState<T> end_effector;
 };
 

@@ -151,19 +151,25 @@ void about_coordinates(const std::shared_ptr<const Scene>& scene, Sentences& say
     say.push_back(fmt::format("{} move no mass and not the end effector: skipped.", listed(no_use)));
 }
 
+// A transform of the file may be several in a row, by frames without a name.
 void about_axes(const std::shared_ptr<const Scene>& scene, Sentences& say) {
-  std::size_t right = 0, parallel = 0;
-  for (const auto& transform : scene->transforms) {
-    if (!transform.alpha.is_constant()) continue;
-    const double quarters = transform.alpha.constant() / 1.5707963267948966;
-    if (std::fabs(quarters - std::round(quarters)) > 1e-12) continue;
-    (std::fabs(std::remainder(quarters, 2.0)) < 0.5 ? parallel : right) += 1;
+  std::size_t right = 0, parallel = 0, all = 0;
+  bool turns = false, by_right_angles = true;
+  for (std::size_t i = 0; i < scene->transforms.size(); ++i) {
+    const Formula& alpha = scene->transforms[i].alpha;
+    const double quarters = alpha.is_constant() ? alpha.constant() / 1.5707963267948966 : 0.5;
+    by_right_angles = by_right_angles && std::fabs(quarters - std::round(quarters)) <= 1e-12;
+    turns = turns || std::fabs(std::remainder(quarters, 2.0)) >= 0.5;
+    if (scene->frames[i + 1].empty()) continue;
+    ++all;
+    if (by_right_angles) (turns ? right : parallel) += 1;
+    turns = false, by_right_angles = true;
   }
   if (parallel > 0)
     say.push_back(
         fmt::format("{} of {} transforms leave the axis parallel: their angles add, and the sums take the "
                     "place of the products of their sines and cosines.",
-                    parallel, scene->transforms.size()));
+                    parallel, all));
   if (right > 0)
     say.push_back(fmt::format("{} turn it by a right angle: zeros and ones, no products.", right));
 }

@@ -18,7 +18,8 @@ struct StatusRow {
 inline constexpr std::array<StatusRow, 3> kStatuses = {{
     {"ok", "the result is finite"},
     {"not_finite",
-     "the result is not finite: the mass matrix is singular there, or an argument is not finite"},
+     "the result is not finite: the mass matrix is singular there, the ends of a spring or damper meet that "
+     "needs a direction, or an argument is not finite"},
     {"not_closed",
      "the closures can't be solved there: the mechanism doesn't reach so far, or a singular pose is on the "
      "way"},

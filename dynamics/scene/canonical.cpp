@@ -69,6 +69,16 @@ std::string canonical_text(const Scene& scene) {
     text += fmt::format("coordinate load {}\n", load.coordinate);
     for (const auto* formula : {&load.stiffness, &load.rest, &load.damping}) add(text, *formula);
   }
+  for (const auto& load : scene.along_loads) {
+    text += "along load\n";
+    for (const auto* formula : {&load.along, &load.law.stiffness, &load.law.rest, &load.law.damping})
+      add(text, *formula);
+  }
+  for (const auto& load : scene.between_loads) {
+    text += fmt::format("between load {} {}\n", load.ends[0].frame, load.ends[1].frame);
+    for (const auto& end : load.ends) add(text, end.point);
+    for (const auto* formula : {&load.law.stiffness, &load.law.rest, &load.law.damping}) add(text, *formula);
+  }
   if (scene.friction_factor) text += "friction factor\n";
   if (scene.is_closed()) add_closures(text, scene);
   text += "gravity\n";

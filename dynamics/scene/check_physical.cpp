@@ -68,17 +68,32 @@ void check_body(const Scene::Body& body, const ValuesAtHome& values) {
                     in_quotes(body.name), principal[0]));
 }
 
-void check_coordinate_load(const Scene::CoordinateLoad& load, const ValuesAtHome& values) {
-  values.of(load.rest, "the spring's rest position");
+/// `moved`: what they act on.
+void check_law(const Formula& stiffness, const Formula& rest, const Formula& damping, const char* moved,
+               const ValuesAtHome& values) {
+  values.of(rest, "the spring's rest position");
   const auto check = [&](const Formula& formula, const char* what) {
     const double value = values.of(formula, what);
     if (value < 0)
       throw InputError(
           "negative_stiffness", formula.place,
-          fmt::format("{} is {:.6g}, which drives the coordinate away; expected 0 or more", what, value));
+          fmt::format("{} is {:.6g}, which drives {} away; expected 0 or more", what, value, moved));
   };
-  check(load.stiffness, "the stiffness");
-  check(load.damping, "the damping");
+  check(stiffness, "the stiffness");
+  check(damping, "the damping");
+}
+
+void check_along(const Scene::AlongLoad& load, const ValuesAtHome& values) {
+  values.of(load.along, "what a load acts along");
+  check_law(load.law.stiffness, load.law.rest, load.law.damping, "what it acts along", values);
+}
+
+void check_between(const Scene::BetweenLoad& load, const ValuesAtHome& values) {
+  for (const auto& end : load.ends) values.check(end.point, "the load's point");
+  check_law(load.law.stiffness, load.law.rest, load.law.damping, "the points", values);
+  if (const double rest = values.of(load.law.rest, "the spring's rest length"); rest < 0)
+    throw InputError("out_of_range", load.law.rest.place,
+                     fmt::format("the rest length between two points is {:.6g} m; expected 0 or more", rest));
 }
 
 }  // namespace
@@ -94,7 +109,10 @@ void check_physical(const Scene& scene, const std::vector<double>& parameters) {
     values.check(load.force, "the load's force");
     values.check(load.moment, "the load's moment");
   }
-  for (const auto& load : scene.coordinate_loads) check_coordinate_load(load, values);
+  for (const auto& load : scene.coordinate_loads)
+    check_law(load.stiffness, load.rest, load.damping, "the coordinate", values);
+  for (const auto& load : scene.along_loads) check_along(load, values);
+  for (const auto& load : scene.between_loads) check_between(load, values);
   values.check(scene.gravity, "gravity");
   values.check(scene.end_effector.point, "the end effector's point");
   for (const auto& singularity : scene.singularities)

@@ -43,10 +43,10 @@ class Counting {
         look(formula, node.left, false);
         return;
       case Op::atan2:
-        if (value) found_.push_back({0, index, false});
+        if (value) found_.push_back({.node = index});
         break;
       case Op::atan:
-        if (has_pole(formula, node.left)) found_.push_back({0, index, true});
+        if (has_pole(formula, node.left)) found_.push_back({.node = index, .of_quotient = true});
         break;
       default:
         break;
@@ -55,7 +55,7 @@ class Counting {
     if (node.right >= 0) look(formula, node.right, true);
   }
 
-  /// Without the coordinate that they stand in.
+  /// Without what they stand in.
   const std::vector<CountedAngle>& found() const { return found_; }
 
  private:
@@ -185,8 +185,19 @@ class Turned {
   Formula made_;
 };
 
-std::string jump_text(const std::string& coordinate, bool of_quotient) {
-  return "the coordinate '" + coordinate + "' jumps by " +
+const Formula& formula_of(const Scene& scene, const CountedAngle& angle) {
+  return angle.load < 0 ? scene.coordinates[static_cast<std::size_t>(angle.coordinate)].constraint
+                        : scene.along_loads[static_cast<std::size_t>(angle.load)].along;
+}
+
+std::string what_has(const Scene& scene, const CountedAngle& angle) {
+  return angle.load < 0
+             ? "the coordinate '" + scene.coordinates[static_cast<std::size_t>(angle.coordinate)].name + "'"
+             : "what a load acts along (line " + std::to_string(formula_of(scene, angle).place.line) + ")";
+}
+
+std::string jump_text(const std::string& what, bool of_quotient) {
+  return what + " jumps by " +
          (of_quotient ? "half a turn where the divisor in its atan passes zero; expected the atan2 of the "
                         "two, which goes on"
                       : "a turn, half a turn away from its value at home: its atan2 gives no more than one, "
@@ -199,13 +210,25 @@ std::string jump_text(const std::string& coordinate, bool of_quotient) {
 std::vector<CountedAngle> counted_angles(const Scene& scene) {
   std::vector<bool> counted = read_by_value(scene);
   std::vector<CountedAngle> angles;
+  for (std::size_t i = 0; i < scene.along_loads.size(); ++i) {
+    const Formula& along = scene.along_loads[i].along;
+    Counting counting(scene, counted);
+    counting.look(along, static_cast<int>(along.nodes.size()) - 1, true);
+    for (CountedAngle angle : counting.found()) {
+      angle.load = static_cast<int>(i);
+      angles.push_back(angle);
+    }
+  }
   // Those that read others come before these.
   for (auto j = scene.evaluation_order.rbegin(); j != scene.evaluation_order.rend(); ++j) {
     const Formula& constraint = scene.coordinates[static_cast<std::size_t>(*j)].constraint;
     Counting counting(scene, counted);
     counting.look(constraint, static_cast<int>(constraint.nodes.size()) - 1,
                   counted[static_cast<std::size_t>(*j)]);
-    for (const CountedAngle& angle : counting.found()) angles.push_back({*j, angle.node, angle.of_quotient});
+    for (CountedAngle angle : counting.found()) {
+      angle.coordinate = *j;
+      angles.push_back(angle);
+    }
   }
   return angles;
 }
@@ -215,15 +238,20 @@ void turn_cuts_away_from_home(Scene& scene) {
   if (angles.empty()) return;
   std::vector<double> symbols = symbol_values(scene, scene.default_parameters());
   follow(scene, symbols);
-  for (std::size_t j = 0; j < scene.coordinates.size(); ++j) {
+  const auto turn = [&](Formula& formula, auto stands_in_it) {
     std::vector<std::pair<int, double>> turns;
-    Formula& constraint = scene.coordinates[j].constraint;
     for (const auto& angle : angles)
-      if (static_cast<std::size_t>(angle.coordinate) == j && !angle.of_quotient)
-        if (const double h = value_of(constraint, angle.node, symbols); std::isfinite(h) && h != 0)
+      if (stands_in_it(angle) && !angle.of_quotient)
+        if (const double h = value_of(formula, angle.node, symbols); std::isfinite(h) && h != 0)
           turns.emplace_back(angle.node, h);
-    if (!turns.empty()) constraint = Turned(constraint, turns).take();
-  }
+    if (!turns.empty()) formula = Turned(formula, turns).take();
+  };
+  for (int j = 0; j < scene.m(); ++j)
+    turn(scene.coordinates[static_cast<std::size_t>(j)].constraint,
+         [&](const CountedAngle& angle) { return angle.load < 0 && angle.coordinate == j; });
+  for (std::size_t i = 0; i < scene.along_loads.size(); ++i)
+    turn(scene.along_loads[i].along,
+         [&](const CountedAngle& angle) { return angle.load == static_cast<int>(i); });
 }
 
 AngleWatch::AngleWatch(const Scene& scene, std::vector<double> parameters)
@@ -238,12 +266,11 @@ std::string AngleWatch::look(std::span<const double> psi, double t) {
   std::string jumped;
   std::vector<double> now;
   for (const CountedAngle& angle : angles_) {
-    const auto& coordinate = scene_.coordinates[static_cast<std::size_t>(angle.coordinate)];
-    now.push_back(value_of(coordinate.constraint, angle.node, symbols_));
+    now.push_back(value_of(formula_of(scene_, angle), angle.node, symbols_));
     if (last_.empty() || !jumped.empty()) continue;
     const double by = std::abs(now.back() - last_[now.size() - 1]);
     if (by > std::numbers::pi / (angle.of_quotient ? 2 : 1))
-      jumped = jump_text(coordinate.name, angle.of_quotient);
+      jumped = jump_text(what_has(scene_, angle), angle.of_quotient);
   }
   last_ = std::move(now);
   return jumped;

@@ -8,13 +8,14 @@
 
 namespace mixloop {
 
-/// An arc tangent in a constraint that may jump where the mechanism doesn't: an atan2 whose value counts, not
-/// only its sine and cosine (a load reads the coordinate, a slide moves by it, or it is taken times what is
-/// no whole number), by a turn at its cut; an atan of a quotient by half a turn where the divisor passes
-/// zero.
+/// An arc tangent, in a constraint or in what a load acts along, that may jump where the mechanism doesn't:
+/// an atan2 whose value counts, not only its sine and cosine (a load reads the coordinate, a slide moves by
+/// it, or it is taken times what is no whole number), by a turn at its cut; an atan of a quotient by half a
+/// turn where the divisor passes zero.
 struct CountedAngle {
-  int coordinate = 0;
-  int node = 0;  ///< of the constraint's formula
+  int coordinate = 0;  ///< that the constraint gives
+  int load = -1;       ///< or where it stands in what a load acts along: its number among along_loads
+  int node = 0;        ///< of that formula
   bool of_quotient = false;
 };
 std::vector<CountedAngle> counted_angles(const Scene& scene);

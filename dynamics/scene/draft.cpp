@@ -48,11 +48,24 @@ int SceneDraft::frame(const Mapping& entry) const { return frame_named(*entry.at
 int SceneDraft::frame_named(const Node& node, const std::string& what) const {
   const std::string& name = text_of(node, "a frame's name");
   const auto found = frame_index.find(name);
-  if (found == frame_index.end())
-    throw InputError("broken_path", node.place,
-                     what + " sits on the frame " + in_quotes(name) + ", which no transform makes" +
-                         suggestion(name, scene.frames));
-  return found->second;
+  if (found != frame_index.end()) return found->second;
+  std::vector<std::string> names = scene.frames;
+  std::erase(names, "");
+  throw InputError("broken_path", node.place,
+                   what + " sits on the frame " + in_quotes(name) + ", which no transform makes" +
+                       suggestion(name, names));
+}
+
+int SceneDraft::as_coordinate(int independent) {
+  const auto& psi = scene.independent[static_cast<std::size_t>(independent)];
+  for (int j = 0; j < scene.m(); ++j)  // names are unique: a coordinate of this name is that one
+    if (scene.coordinates[static_cast<std::size_t>(j)].name == psi.name) return j;
+  Formula equal = constant_formula(0, psi.linear ? kLength : kPure);
+  equal.nodes.front() = {.op = Formula::Operator::symbol, .symbol = Symbols(scene).psi0 + independent};
+  scene.evaluation_order.push_back(scene.m());
+  scene.steps.push_back({.coordinate = scene.m()});
+  scene.coordinates.push_back({.name = psi.name, .constraint = std::move(equal)});
+  return scene.m() - 1;
 }
 
 int SceneDraft::coordinate(const Mapping& entry) const {

@@ -35,6 +35,8 @@ struct SceneDraft {
   int frame(const Mapping& entry) const;
   /// The frame of this name; `what` sits on it.
   int frame_named(const Node& name, const std::string& what) const;
+  /// The coordinate that is equal to an independent one and has its name; made where there is none yet.
+  int as_coordinate(int independent);
   /// The coordinate that the entry names under `coordinate`.
   int coordinate(const Mapping& entry) const;
 };

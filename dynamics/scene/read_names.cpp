@@ -159,6 +159,7 @@ void read_motors(const Mapping& root, SceneDraft& draft) {
 }
 
 void read_constraints(const Mapping& root, SceneDraft& draft) {
+  if (!root.has("coordinates") && !root.has("constraints")) return;  // transforms may name motors themselves
   const Node& constraints = constraints_of(root);
   list_coordinates(root.at("coordinates"), constraints, root, draft);
   refuse_other_constraints(constraints, draft);

@@ -55,8 +55,9 @@ std::vector<double> Scene::default_parameters() const {
 }
 
 bool Scene::has_friction() const {
-  return std::any_of(coordinate_loads.begin(), coordinate_loads.end(),
-                     [](const CoordinateLoad& load) { return !load.damping.is_zero(); });
+  return std::ranges::any_of(coordinate_loads, [](const auto& load) { return !load.damping.is_zero(); }) ||
+         std::ranges::any_of(along_loads, [](const auto& load) { return !load.law.damping.is_zero(); }) ||
+         std::ranges::any_of(between_loads, [](const auto& load) { return !load.law.damping.is_zero(); });
 }
 
 }  // namespace mixloop

@@ -79,11 +79,11 @@ struct Scene {
     Place place;
   };
 
-  /// A Denavit-Hartenberg transform, from frame `parent` to the frame that it makes.
+  /// A Denavit-Hartenberg transform, from frame `parent` to the frame that it makes. A pose or joint of
+  /// the file may take several, by frames without a name.
   /// At most one of theta and s contains a coordinate, and is affine in it.
   struct Transform {
-    std::string from, to;
-    int parent = 0;                 ///< index of the frame `from`; frame i + 1 is made by transform i
+    int parent = 0;                 ///< a frame's index; frame i + 1 is made by transform i
     Formula theta, s, a, alpha;     ///< rad, m, m, rad
     std::optional<int> coordinate;  ///< index of the varying coordinate
     bool prismatic = false;         ///< it varies s, not theta
@@ -110,6 +110,29 @@ struct Scene {
   struct CoordinateLoad {
     int coordinate = 0;
     Formula stiffness, rest, damping;  ///< N m/rad, rad, N m s/rad; of a displacement N/m, m, N s/m
+  };
+
+  /// What acts along a quantity f, an angle or a length: the moment (or force) -stiffness (f - rest) -
+  /// damping f', f' its total rate. Units as of a CoordinateLoad.
+  struct SpringDamper {
+    Formula stiffness, rest, damping;
+  };
+
+  /// Such a load along a formula of coordinates, which may depend on time.
+  struct AlongLoad {
+    Formula along;
+    SpringDamper law;
+  };
+
+  /// Such a load along the distance of two points. A rest of 0 is a spring that ends meet by, regular there;
+  /// else a distance of 0 has no direction, and what depends on it is not finite.
+  struct BetweenLoad {
+    struct End {
+      int frame = 0;
+      std::array<Formula, 3> point;  ///< m, in the frame's axes
+    };
+    std::array<End, 2> ends;
+    SpringDamper law;
   };
 
   /// What a viewer draws along with a frame: no part of the mechanism. m, in the frame's axes.
@@ -151,10 +174,12 @@ struct Scene {
   std::vector<ClosureRow> redundant_rows;  ///< follow from the others, and are not solved
   std::vector<Parameter> parameters;
   std::vector<Transform> transforms;  ///< parents first
-  std::vector<std::string> frames;    ///< names; frame 0 is the ground
+  std::vector<std::string> frames;    ///< names, empty of those amid a pose; frame 0 is the ground
   std::vector<Body> bodies;
   std::vector<Load> loads;
   std::vector<CoordinateLoad> coordinate_loads;
+  std::vector<AlongLoad> along_loads;
+  std::vector<BetweenLoad> between_loads;
   std::array<Formula, 3> gravity;  ///< m/s^2, inertial axes
   EndEffector end_effector;
   double size = 1;           ///< m, of the mechanism whose closures are solved: what is near there
@@ -174,7 +199,9 @@ struct Scene {
   bool turns(int coordinate) const;             ///< whether it is an angle
   bool is_length(const ClosureRow& row) const;  ///< or an angle
   /// Whether anything but inertia, gravity and the motors acts.
-  bool is_loaded() const { return !loads.empty() || !coordinate_loads.empty(); }
+  bool is_loaded() const {
+    return !loads.empty() || !coordinate_loads.empty() || !along_loads.empty() || !between_loads.empty();
+  }
   int n() const { return static_cast<int>(independent.size()); }
   /// The independent coordinates that motors drive: motor i drives psi_i, so a force tau_i acts along it.
   int n_u() const { return static_cast<int>(motors().size()); }

@@ -20,10 +20,13 @@ bool constraints_depend_on_time(const Scene& scene) {
 }
 
 bool loads_depend_on_time(const Scene& scene) {
-  return std::any_of(scene.loads.begin(), scene.loads.end(), [](const auto& load) {
-    return std::any_of(load.force.begin(), load.force.end(), timed) ||
-           std::any_of(load.moment.begin(), load.moment.end(), timed);
-  });
+  return std::any_of(scene.loads.begin(), scene.loads.end(),
+                     [](const auto& load) {
+                       return std::any_of(load.force.begin(), load.force.end(), timed) ||
+                              std::any_of(load.moment.begin(), load.moment.end(), timed);
+                     }) ||
+         std::any_of(scene.along_loads.begin(), scene.along_loads.end(),
+                     [](const auto& load) { return timed(load.along); });
 }
 
 }  // namespace mixloop

@@ -6,7 +6,6 @@
 // link and a the (classical) acceleration of the frame's origin.
 #include <optional>
 
-#include "dynamics/procedure/bodies.hpp"
 #include "dynamics/symbolic/link_frames.hpp"
 
 namespace mixloop {
@@ -145,8 +144,9 @@ class ArticulatedTracer final : public Tracer {
       bodies[f].p.force += loads[f].force, bodies[f].p.moment += loads[f].moment;
     }
     ExpressionVector taken = ExpressionVector::Constant(model().m(), E(0.0));
-    add_coordinate_loads<E>(model(), at().q, at().qd, taken);
-    const ExpressionVector given = beside_the_joints(tau, taken);
+    ExpressionVector on_psi = ExpressionVector::Constant(model().n(), E(0.0));
+    frames_.add_spring_dampers(taken, on_psi);
+    const ExpressionVector given = beside_the_joints(tau - on_psi, taken);
     for (std::size_t i = frames_.size(); i-- > 0;) {
       Articulated mid = in_mid(i, bodies[i + 1]);
       if (frames_[i].moves) open_joint(i, given[psi_[i]] / slope(i) - taken[frames_.coordinate(i)], mid);
@@ -165,12 +165,13 @@ class ArticulatedTracer final : public Tracer {
     for (std::size_t i = 0; i < frames_.size(); ++i)
       if (frames_[i].moves) joint[static_cast<std::size_t>(frames_.coordinate(i))] = true;
     ExpressionVector given = tau;
-    for (const auto& load : model().coordinate_loads) {
-      if (joint[static_cast<std::size_t>(load.coordinate)]) continue;
-      joint[static_cast<std::size_t>(load.coordinate)] = true;  // two loads at one are one in `taken`
-      for (Eigen::Index k = 0; k < given.size(); ++k)
-        given[k] -= at().C(load.coordinate, k) * taken[load.coordinate];
-    }
+    const auto subtract = [&](int j) {
+      if (joint[static_cast<std::size_t>(j)]) return;
+      joint[static_cast<std::size_t>(j)] = true;  // two loads at one are one in `taken`
+      for (Eigen::Index k = 0; k < given.size(); ++k) given[k] -= at().C(j, k) * taken[j];
+    };
+    for (const auto& load : model().coordinate_loads) subtract(load.coordinate);
+    for (int j = 0; j < model().m(); ++j) subtract(j);
     return given;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/symbolic/link_frames.hpp"
 
+#include "dynamics/procedure/bodies.hpp"
 #include "dynamics/procedure/constraints.hpp"
 
 namespace mixloop {
@@ -100,6 +101,21 @@ V3 LinkFrames::in_frame(int frame, V3 x) const {
   for (; !way.empty(); way.pop_back())
     x = links_[way.back()].alpha.into_x(links_[way.back()].theta.into_z(x));
   return x;
+}
+
+LineState<E> LinkFrames::line_state() const {
+  return {span_of(in_.psi), span_of(in_.psid), workspace_.q, workspace_.qd, in_.t};
+}
+
+void LinkFrames::add_spring_dampers(ExpressionVector& on_q, ExpressionVector& on_psi) const {
+  add_coordinate_loads<E>(model_, workspace_.q, workspace_.qd, on_q);
+  std::vector<LineStep<E>> line(links_.size());
+  add_line_loads<E>(model_, line_state(), line, on_q, on_psi);
+}
+
+E LinkFrames::spring_potentials() const {
+  std::vector<LineStep<E>> line(links_.size());
+  return spring_potential<E>(model_, workspace_.q) + line_potential<E>(model_, line_state(), line);
 }
 
 void LinkFrames::subtract_loads(std::vector<Wrench>& wrench) const {

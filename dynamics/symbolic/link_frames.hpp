@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dynamics/procedure/model.hpp"
+#include "dynamics/procedure/line_loads.hpp"
 #include "dynamics/symbolic/closed_chains.hpp"
 #include "dynamics/symbolic/tracer.hpp"
 
@@ -109,10 +109,15 @@ class LinkFrames {
   Wrench in_parent(std::size_t i, const Wrench& mid) const;
   /// A vector in inertial axes, in a frame's.
   Expression3 in_frame(int frame, Expression3 x) const;
+  /// Adds what springs and dampers at coordinates, along formulas and between points take: along the
+  /// coordinates (m), and along the independent ones directly (n).
+  void add_spring_dampers(ExpressionVector& on_q, ExpressionVector& on_psi) const;
+  Expression spring_potentials() const;
   /// Takes the external loads off the frames' wrenches.
   void subtract_loads(std::vector<Wrench>& wrench) const;
 
  private:
+  LineState<Expression> line_state() const;
   void place_links();
   void lump_bodies();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The procedure recorded as it stands.
 #include "dynamics/procedure/procedure.hpp"
+#include "dynamics/scene/end_effector_chain.hpp"
 #include "dynamics/symbolic/closed_chains.hpp"
 #include "dynamics/symbolic/tracer.hpp"
 
@@ -50,7 +51,8 @@ std::unique_ptr<Tracer> literal_tracer(std::shared_ptr<const Scene> scene) {
 EndEffectorState<Expression> trace_end_effector(std::shared_ptr<const Scene> scene,
                                                 const ExpressionVector& psidd,
                                                 std::vector<Expression>& solved) {
-  LiteralTracer tracer(std::move(scene));
+  // Closures may need frames that the end effector does not.
+  LiteralTracer tracer(scene->is_closed() ? scene : with_shortest_chain(scene));
   auto state = tracer.end_effector(psidd);
   solved = tracer.solved_from_start();
   return state;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Composite rigid bodies and Newton-Euler along the tree (Featherstone, Rigid Body Dynamics Algorithms,
 // ch. 5 and 6), in link frames; then C, as (31) and (32).
-#include "dynamics/procedure/bodies.hpp"
 #include "dynamics/symbolic/link_frames.hpp"
 
 namespace mixloop {
@@ -135,8 +134,9 @@ class RecursiveTracer final : public Tracer {
     std::vector<Wrench> wrench = inertial_wrenches(qdd, {at().qd, model().gravity});
     frames_.subtract_loads(wrench);
     ExpressionVector force = along_coordinates(wrench);
-    add_coordinate_loads<E>(model(), at().q, at().qd, force);
-    return C().transpose().lazyProduct(force);
+    ExpressionVector on_psi = ExpressionVector::Constant(model().n(), E(0.0));
+    frames_.add_spring_dampers(force, on_psi);
+    return C().transpose().lazyProduct(force) + on_psi;
   }
 
   std::vector<Wrench> inertial_wrenches(const ExpressionVector& qdd, const Driven& driven) const {
@@ -200,7 +200,7 @@ class RecursiveTracer final : public Tracer {
       potential -= frames_.inertias()[i + 1].mass * height[i + 1] +
                    frames_.inertias()[i + 1].moment.dot(gravity[i + 1]);
     }
-    return potential + spring_potential<E>(model(), at().q);
+    return potential + frames_.spring_potentials();
   }
 
   LinkFrames frames_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "tests/support/command.hpp"
 #include "tests/support/mixed_motors.hpp"
 #include "tests/support/paths.hpp"
@@ -67,6 +69,20 @@ TEST(DynamicsCommand, KeepsEachParametersUnit) {
     EXPECT_EQ(refused.json()["error"]["message"],
               "the parameter 'payload' is a length (m); expected a mass (kg)");
   }
+}
+
+TEST(DynamicsCommand, RefusesAPoseWhereASpringHasNoDirection) {
+  const std::string scene = testing::TempDir() + "slide_on_a_spring.yaml";
+  std::ofstream(scene) << "motors: {x: linear}\ntransforms: [{from: 0, to: slide, prismatic: x}]\n"
+                          "bodies: [{frame: slide, mass: 2 kg}]\nend_effector: {frame: slide, axes: [z]}\n"
+                          "loads: [{between: [{frame: 0}, {frame: slide}], stiffness: 5 N/m, rest: 10 cm}]\n";
+  Command meets({bin("mixloop"), "dynamics", scene, "--psi", "0", "--json"});
+  ASSERT_EQ(meets.wait(), 2);
+  EXPECT_EQ(meets.json()["error"]["code"], "not_finite");
+  EXPECT_EQ(meets.json()["error"]["where"], "--psi");
+  Command apart({bin("mixloop"), "dynamics", scene, "--psi", "0.3", "--json"});
+  ASSERT_EQ(apart.wait(), 0);
+  EXPECT_NEAR(apart.json()["psidd"][0], -0.5, 1e-15);
 }
 
 TEST(DynamicsCommand, RefusesAStateOfTheWrongSize) {

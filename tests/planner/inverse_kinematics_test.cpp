@@ -81,6 +81,29 @@ TEST(InverseKinematics, KnowsTheFamilyByItsForm) {
   EXPECT_FALSE(InverseKinematics(paper_robot({{"constraints.q3", "q2/2"}})).arm());
 }
 
+// However its chain is told.
+TEST(InverseKinematics, KnowsTheFamilyByPosesToo) {
+  const auto posed = [](const std::string& wrist) {
+    return paper_robot({{"transforms",
+                         "[{from: 0, to: 1, at: [0, 0, L1], rpy: [90 deg, 0, 0], revolute: q1, axis: y},"
+                         "{from: 1, to: shoulder, revolute: q2}, {from: shoulder, to: 2, at: [L2, 0, 0]},"
+                         "{from: 2, to: elbow, revolute: q5}, {from: elbow, to: 3, at: [L3, 0, 0], " +
+                             wrist +
+                             "}, {from: 1, to: 4, theta: q3, a: L4}, {from: 4, to: 5, theta: q6, a: L5},"
+                             "{from: 5, to: 6, theta: q4, a: L6}]"}});
+  };
+  const Model<double> shipped_model = paper_robot(), posed_model = posed("rpy: [90 deg, 0, 0]");
+  InverseKinematics shipped(shipped_model), poses(posed_model);
+  ASSERT_TRUE(poses.arm());
+  const Vector psi = Vector3d(0.3, -16, 17);
+  const Eigen::Vector3d place = shipped.forward(psi, Vector::Zero(3), Vector::Zero(3), 0).position;
+  Vector one = psi, other = psi;
+  ASSERT_EQ(shipped.position(place, 0, one), IkOutcome::solved);
+  ASSERT_EQ(poses.position(place, 0, other), IkOutcome::solved);
+  EXPECT_LT((one - other).norm(), 1e-13);  // angles of tens of radians
+  EXPECT_FALSE(InverseKinematics(posed("rpy: [90 deg, 0, 10 deg]")).arm()) << "four transforms";
+}
+
 TEST(InverseKinematics, TakesItsBranchFromHome) {
   EXPECT_EQ(InverseKinematics(paper_robot()).arm()->elbow, 1);
   EXPECT_EQ(InverseKinematics(paper_robot()).arm()->front, 1);

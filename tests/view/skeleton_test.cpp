@@ -79,6 +79,33 @@ TEST(Skeleton, ClosesEveryLoopOfTheScenes) {
   EXPECT_EQ(skeleton_of("spatial_slider_crank").closures().size(), 1u);
 }
 
+// Bars lie between frames that a person named; the joint of the rod is at one amid its pose.
+TEST(Skeleton, TellsFramesAmidAPoseByTheirLackOfAName) {
+  const auto scene = std::make_shared<const Scene>(load_scene(parse_document(R"(
+motors: [a, b]
+transforms:
+  - {from: 0, to: arm, revolute: a}
+  - {from: arm, to: rod, at: [1, 2, 0], revolute: b, axis: x}
+  - {from: rod, to: tip, at: [0, 0, 1]}
+bodies: [{frame: tip, mass: 1}]
+end_effector: {frame: tip}
+)",
+                                                                             "posed")));
+  const Skeleton posed(scene, {});
+  EXPECT_TRUE(posed.closures().empty()) << "the rod's origin stands still in the frames amid its own pose";
+  std::vector<std::string> names;
+  std::size_t joints = 0;
+  const auto description = posed.description();
+  for (const auto& frame : description["frames"]) {
+    names.push_back(frame["name"]);
+    joints += frame.contains("coordinate");
+  }
+  EXPECT_THAT(names, ElementsAre("0", "arm", "", "", "", "rod", "tip"));
+  EXPECT_EQ(joints, 2U);
+  const std::size_t joint = description["motors"][1]["joint"];
+  EXPECT_EQ(description["frames"][joint]["coordinate"], "b");
+}
+
 TEST(Skeleton, ShowsEachMotorsTorqueAtAJointThatItMoves) {
   const auto motors = skeleton_of("mixed_loop_robot").description()["motors"];
   std::vector<int> joints;

@@ -78,6 +78,12 @@ export class Drawing {
     this.buildAxes();
   }
 
+  /** The frame itself, or the next below it with a name: those amid a pose have none and are not drawn. */
+  named(frame) {
+    while (frame > 0 && !this.mechanism.frames[frame].name) frame = this.mechanism.frames[frame].parent;
+    return frame;
+  }
+
   buildMechanism() {
     const { reach, bar } = this;
     const size = 0.012 * reach;
@@ -86,7 +92,7 @@ export class Drawing {
     for (const group of this.solids) if (group) this.space.add(group);
     // A link without a solid is two bars: along its joint's axis (s), then to its frame (a).
     this.links = this.mechanism.frames.map((frame, i) =>
-      i === 0 || this.solids[i] ? null : { parent: frame.parent, bars: [mesh(bar, 'link'), mesh(bar, 'link')], radius: size },
+      i === 0 || !frame.name || this.solids[i] ? null : { parent: this.named(frame.parent), bars: [mesh(bar, 'link'), mesh(bar, 'link')], radius: size },
     );
     const joint = new THREE.CylinderGeometry(1.9 * size, 1.9 * size, 4.5 * size, 24).rotateX(Math.PI / 2);
     const slide = new THREE.BoxGeometry(3.5 * size, 3.5 * size, 5 * size);
@@ -194,7 +200,7 @@ export class Drawing {
     for (const { frame, at, mesh } of this.masses) mesh.position.copy(at).applyQuaternion(frames[frame].turn).add(frames[frame].at);
     this.mechanism.closures.forEach(({ leaf, on }, i) => {
       const place = frames[leaf].at;
-      const base = Math.max(this.mechanism.frames[on].parent, 0);
+      const base = this.named(Math.max(this.mechanism.frames[on].parent, 0));
       stretch(this.closures[i][0], place, frames[on].at, 0.006 * this.reach);
       stretch(this.closures[i][1], place, frames[base].at, 0.006 * this.reach);
     });

@@ -37,7 +37,7 @@ enum class Purpose : std::uint8_t {
 /// How an evaluation went.
 enum class Status : std::uint8_t {
   ok,
-  not_finite,  ///< the mass matrix is singular there, or an argument is not finite
+  not_finite,  ///< the mass matrix is singular there, a spring's ends meet, or an argument is not finite
   not_closed,  ///< the mechanism doesn't reach so far, or a singular pose is on the way
 };
 

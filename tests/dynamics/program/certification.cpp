@@ -82,7 +82,20 @@ class WideProcedure {
     const WideVector all = h();
     Wide speed = 0;
     for (const Wide& x : psid_) speed += x * x;
-    return weight.norm() + (all - weight).norm() + M().norm() * speed;
+    return weight.norm() + (all - weight).norm() + M().norm() * speed + pull_of_springs();
+  }
+
+  // What springs along lines would pull without a rest, though that, or gravity, takes most of it away.
+  Wide pull_of_springs() {
+    if (model_.along_loads.empty() && model_.between_loads.empty()) return 0;
+    Model<Wide> slack = model_;
+    for (auto& load : slack.along_loads) load.law.rest = 0;
+    for (auto& load : slack.between_loads) load.law.rest = 0;
+    std::vector<Wide> still(psid_.size(), Wide(0));
+    const WideVector at_rest = WideVector::Zero(model_.m());
+    WideVector on_q = at_rest, on_psi = WideVector::Zero(n_);
+    add_line_loads<Wide>(slack, {psi(), still, workspace_.q, at_rest, t_}, workspace_.line, on_q, on_psi);
+    return (workspace_.C.transpose() * on_q).norm() + on_psi.norm();
   }
 
   void mass_times(int from) {
@@ -144,6 +157,17 @@ class WideProcedure {
       const Wide slopes = workspace_.C.row(load.coordinate).norm();
       const Wide size = abs(workspace_.q[load.coordinate]) + slopes * reach + abs(load.rest);
       sum += load.stiffness * size * size / 2;
+    }
+    const LineState<Wide> at{psi(), psid(), workspace_.q, workspace_.qd, t_};
+    for (std::size_t i = 0; i < model_.along_loads.size(); ++i) {
+      const auto& [law, names] = model_.along_loads[i];
+      Wide size = abs(detail::along_value(model_, i, at)) + abs(law.rest);
+      for (const int name : names) size += abs(detail::along_partial(model_, i, at, name)) * reach;
+      sum += law.stiffness * size * size / 2;
+    }
+    for (const auto& load : model_.between_loads) {
+      const Wide size = detail::between(model_, load, at, workspace_.line).at.norm() + load.law.rest + reach;
+      sum += load.law.stiffness * size * size / 2;
     }
     return sum;
   }

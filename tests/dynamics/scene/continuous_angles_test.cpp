@@ -85,6 +85,28 @@ TEST(AngleWatch, TellsAJumpHalfATurnAwayFromHome) {
   EXPECT_FALSE(AngleWatch(crank("170 deg", ""), {}).needed());
 }
 
+// A formula that a load acts along is as a coordinate that a load acts at.
+TEST(ContinuousAngles, GoOnInWhatALoadActsAlong) {
+  const Scene scene = crank("170 deg", R"yaml(loads:
+  - {along: "atan2(sin(psi), cos(psi)) - psi/2", stiffness: 1 N m/rad}
+  - {along: "sin(seen)", stiffness: 1 N m/rad})yaml");
+  ASSERT_EQ(counted_angles(scene).size(), 1U) << "a sine is of no wound angle";
+  EXPECT_EQ(counted_angles(crank("170 deg", "loads: [{along: seen/2, stiffness: 1 N m/rad}]")).size(), 1U);
+  const auto along = [&](double psi) {
+    return evaluate<double>(scene.along_loads[0].along, [&](int) { return psi; });
+  };
+  for (const double degrees : {100.0, 170.0, 190.0, 300.0})
+    EXPECT_NEAR(along(degrees * kTurn / 360), degrees * kTurn / 720, 4e-15) << degrees;
+  AngleWatch watch(scene, {});
+  for (double degrees = 170; degrees < 350; ++degrees) {
+    const double psi = degrees * kTurn / 360;
+    EXPECT_EQ(watch.look(std::span(&psi, 1), 0), "") << degrees;
+  }
+  const double past = 351 * kTurn / 360;
+  const std::string jumped = watch.look(std::span(&past, 1), 0);
+  EXPECT_EQ(jumped.find("what a load acts along (line "), 0U) << jumped;
+}
+
 // A parallelogram's pose would flip where x passes zero.
 TEST(AngleWatch, TellsThePoleOfAQuotientsAtan) {
   const Scene scene = load_scene(parse_document(R"yaml(

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "dynamics/scene/time_dependence.hpp"
 #include "tests/support/bad_input.hpp"
 
 namespace mixloop {
@@ -109,6 +110,43 @@ TEST(LoadScene, ReadsEverySection) {
   EXPECT_EQ(scene.solids[2].shape, Shape::cylinder);
   EXPECT_EQ(scene.solids[2].from, (Triple{0, -1, 0}));
   EXPECT_EQ(scene.solids[2].to, Triple{});
+}
+
+TEST(LoadScene, ReadsLoadsAlongFormulasAndBetweenPoints) {
+  const std::string spring = "  - {coordinate: q2, stiffness: 8 N/mm, rest: 1 cm}";
+  const Scene scene = loaded(with(spring, R"(  - {along: q1 - psi1/2 + t * 1 rad/s, damping: 3 N m s/rad}
+  - {between: [{frame: 0, point: [0, half, 0]}, {frame: 2}], stiffness: 8 N/mm, rest: 1 cm})"));
+  ASSERT_EQ(scene.along_loads.size(), 1U);
+  EXPECT_TRUE(scene.along_loads[0].law.stiffness.is_zero());
+  EXPECT_TRUE(scene.along_loads[0].law.rest.is_zero());
+  EXPECT_EQ(number(scene.along_loads[0].law.damping), 3);
+  ASSERT_EQ(scene.between_loads.size(), 1U);
+  EXPECT_EQ(scene.between_loads[0].ends[0].frame, 0);
+  EXPECT_EQ(number(scene.between_loads[0].ends[0].point[1]), 1);
+  EXPECT_EQ(scene.between_loads[0].ends[1].frame, 2);
+  EXPECT_TRUE(scene.between_loads[0].ends[1].point[0].is_zero());
+  EXPECT_EQ(number(scene.between_loads[0].law.stiffness), 8000);
+  EXPECT_EQ(number(scene.between_loads[0].law.rest), 0.01);
+  EXPECT_NE(scene.canonical, loaded(kScene).canonical);
+  EXPECT_TRUE(scene.has_friction());
+  EXPECT_FALSE(loaded(kScene).has_friction());
+}
+
+TEST(LoadScene, AsksLoadsOfEitherKindWhetherItIsLoadedOrDependsOnTime) {
+  const auto without_loads = [](const std::string& load) {
+    return loaded("motors: [psi]\nloads: [" + load +
+                  "]\ntransforms: [{from: 0, to: arm, theta: psi, a: 1}]\nbodies: [{frame: arm, mass: 1}]\n"
+                  "end_effector: {frame: arm}\n");
+  };
+  EXPECT_FALSE(without_loads("").is_loaded());
+  const Scene along = without_loads("{along: psi, stiffness: 1}"),
+              timed = without_loads("{along: psi - t/1 s, stiffness: 1}"),
+              between = without_loads("{between: [{frame: 0}, {frame: arm}], rest: 1, stiffness: 1}");
+  for (const Scene* scene : {&along, &timed, &between}) {
+    EXPECT_TRUE(scene->is_loaded());
+    EXPECT_FALSE(constraints_depend_on_time(*scene));
+    EXPECT_EQ(loads_depend_on_time(*scene), scene == &timed);
+  }
 }
 
 TEST(LoadScene, IsTheSameMechanismWhateverItsSolids) {
@@ -412,10 +450,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "a transform to the ground frame '0'"},
         BadInput{"FromAList", with("from: 1, to: 2", "from: @[1], to: 2"), "wrong_kind",
                  "expected a frame's name"},
-        BadInput{"MotorInATransform", with("theta: q1 + 5 deg", "theta: @psi1"), "varying_number",
-                 "name a coordinate with that constraint"},
         BadInput{"TimeInATransform", with("theta: q1 + 5 deg", "theta: @t / 1 s"), "varying_number",
-                 "not by motors or time directly"},
+                 "by coordinates only, not by time directly; name a coordinate with that constraint"},
         BadInput{"CurvedInACoordinate", with("theta: q1 + 5 deg", "theta: @q1^2"), "varying_number",
                  "not affine in 'q1'"},
         BadInput{"TwoCoordinates", with("s: q2, ", "s: @q2, theta: q1, "), "varying_number",
@@ -438,6 +474,73 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"StiffnessOfAnAngle", with("8 N/mm", "@8 N m"), "wrong_dimension", "the stiffness"},
         BadInput{"SpringOnNothing", with("coordinate: q2", "coordinate: @q3"), "undefined_symbol",
                  "acts on 'q3', which is no coordinate"},
+        BadInput{"SpringAlongAMass", with("coordinate: q2, ", "along: @bob * q1, "), "wrong_dimension",
+                 "what a load acts along is a mass (kg); expected an angle or a length"},
+        BadInput{"SpringAlongNothing", with("coordinate: q2, ", "along: @3 cm + half + t * 1 m/s, "),
+                 "undefined_symbol",
+                 "what a load acts along names no coordinate; expected a formula of coordinates"},
+        BadInput{"SpringAlongAnUnknown", with("coordinate: q2, ", "along: @q3 + psi1, "), "undefined_symbol",
+                 "undefined symbol 'q3'"},
+        BadInput{"SpringAlongAnAngle", with("coordinate: q2, stiffness: ", "along: q1 - psi1, stiffness: @"),
+                 "wrong_dimension", "the stiffness"},
+        BadInput{"RestAlongAnAngle",
+                 with("coordinate: q2, stiffness: 8 N/mm, rest: ",
+                      "along: q1 - psi1, stiffness: 8 N m/rad, rest: @"),
+                 "wrong_dimension", "the rest is a length (m); expected a number or an angle"},
+        BadInput{"NegativeStiffnessAlong",
+                 with("coordinate: q2, stiffness: ", "along: q2 + 1 cm, stiffness: @-"), "negative_stiffness",
+                 "the stiffness is -8000, which drives what it acts along away; expected 0 or more"},
+        BadInput{
+            "NegativeDampingAlong",
+            with("coordinate: q2, stiffness: 8 N/mm, rest: 1 cm", "along: q2 + 1 cm, damping: @-3 N s/m"),
+            "negative_stiffness", "the damping is -3, which drives what it acts along away"},
+        BadInput{"NotFiniteAlong", with("coordinate: q2, ", "along: @1 cm * sqrt(-1 - q1^2), "), "not_finite",
+                 "what a load acts along is not finite"},
+        BadInput{"LoadAlongWithoutALaw",
+                 with("{coordinate: q2, stiffness: 8 N/mm, rest: 1 cm}", "@{along: q2 + 1 cm}"),
+                 "missing_key",
+                 "a load along a formula lacks both 'stiffness' and 'damping'; expected one of them or both"},
+        BadInput{"LoadBetweenWithoutALaw",
+                 with("{coordinate: q2, stiffness: 8 N/mm, rest: 1 cm}",
+                      "@{between: [{frame: 0}, {frame: 2}], rest: 1 cm}"),
+                 "missing_key", "a load between two points lacks both"},
+        BadInput{"BetweenWithoutARest",
+                 with("{coordinate: q2, stiffness: 8 N/mm, rest: 1 cm}",
+                      "@{between: [{frame: 0}, {frame: 2}], stiffness: 8 N/mm}"),
+                 "missing_key",
+                 "a stiffness between two points lacks the key 'rest'; expected the length at which it pulls "
+                 "nothing"},
+        BadInput{"BetweenThree", with("coordinate: q2, ", "between: @[{frame: 0}, {frame: 2}, {frame: 1}], "),
+                 "wrong_size", "found a list of 3; expected the two ends of a load"},
+        BadInput{
+            "BetweenOnNoFrame", with("coordinate: q2, ", "between: [{frame: 0}, {frame: @3}], "),
+            "broken_path",
+            "an end of a load sits on the frame '3', which no transform makes; expected one of '0', '1', "
+            "'2'"},
+        BadInput{"BetweenWithoutAFrame",
+                 with("coordinate: q2, ", "between: [{frame: 0}, @{point: [0, 0, 0]}], "), "missing_key",
+                 "an end of a load lacks the key 'frame'"},
+        BadInput{"BetweenOneBody",
+                 with("coordinate: q2, ", "between: @[{frame: 2}, {frame: 2, point: [1 cm, 0, 0]}], "),
+                 "out_of_range",
+                 "a load between two points of one rigid body moves nothing; expected frames with a joint "
+                 "between them"},
+        BadInput{"PointInRadians",
+                 with("coordinate: q2, ", "between: [{frame: 0, point: [@1 rad, 0, 0]}, {frame: 2}], "),
+                 "wrong_dimension", "the point is a number or an angle; expected a length (m)"},
+        BadInput{
+            "BetweenInNewtonMetres",
+            with("coordinate: q2, stiffness: 8 N/mm", "between: [{frame: 0}, {frame: 2}], stiffness: @8 N m"),
+            "wrong_dimension", "the stiffness"},
+        BadInput{"NegativeRestBetween",
+                 with("coordinate: q2, stiffness: 8 N/mm, rest: ",
+                      "between: [{frame: 0}, {frame: 2}], stiffness: 8 N/mm, rest: @-"),
+                 "out_of_range", "the rest length between two points is -0.01 m; expected 0 or more"},
+        BadInput{"NegativeStiffnessBetween",
+                 with("coordinate: q2, stiffness: ", "between: [{frame: 0}, {frame: 2}], stiffness: @-"),
+                 "negative_stiffness", "the stiffness is -8000, which drives the points away"},
+        BadInput{"BacklashOfASpring", with("coordinate: q2, ", "along: q2, @backlash: 1 mm, "), "unknown_key",
+                 "unknown key 'backlash' in a load along a formula"},
         BadInput{"SpringAtAPoint", with("coordinate: q2", "coordinate: q2, @point: [0, 0, 0]"), "unknown_key",
                  "unknown key 'point' in a load at a coordinate"},
         BadInput{"NegativeMoment", with("xx: 1 kg m^2", "xx: @-1 kg m^2"), "impossible_inertia",
