@@ -90,17 +90,19 @@ struct Workspace {
   std::function<void(const Model<T>&, std::span<const T> psi, const T& t, Workspace&)> solve = nullptr;
   std::vector<SmallSystem<T>> systems;  ///< a block: its rows' slopes by its unknowns
   std::vector<Frame> frames;
-  Mat<T> D, O;                    ///< 3 x path: (9), (11) of the body in hand
-  Mat<T> S;                       ///< m x m: -sum [DD_i] (25)
-  Vec<T> a;                       ///< m: -sum [AD_i]^T (26)
-  Mat<T> SC;                      ///< m x n: S C
-  Mat<T> M;                       ///< n x n
-  Vec<T> h, out;                  ///< n
-  Mat<T> L;                       ///< n x n: LDL^T of M
-  Vec<T> load;                    ///< m
-  Vec<T> on_psi;                  ///< n: what loads along formulas take on psi itself
-  std::vector<LineStep<T>> line;  ///< of the load between points in hand, a link each
+  Mat<T> D, O;    ///< 3 x path: (9), (11) of the body in hand
+  Mat<T> S;       ///< m x m: -sum [DD_i] (25)
+  Vec<T> a;       ///< m: -sum [AD_i]^T (26)
+  Mat<T> SC;      ///< m x n: S C
+  Mat<T> M;       ///< n x n
+  Vec<T> h, out;  ///< n
+  Mat<T> L;       ///< n x n: LDL^T of M
+  Vec<T> load;    ///< m
   EndEffectorState<T> end_effector;
+
+  // Of loads along formulas and between points.
+  Vec<T> on_psi;                  ///< n: what they take on psi itself
+  std::vector<LineStep<T>> line;  ///< of the load in hand, a link each
 };
 
 }  // namespace mixloop
