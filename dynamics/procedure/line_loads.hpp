@@ -126,11 +126,10 @@ MovingPoint<T> between(const Model<T>& model, const typename Model<T>::BetweenLo
 
 }  // namespace detail
 
-/// Adds what the motion takes along the coordinates (m) and, where a formula names them, along the
-/// independent ones directly (n). `line` has a place for each link where there is a load between points.
+/// Adds what the motion takes along formulas: along the coordinates (m) and, where a formula names them,
+/// along the independent ones directly (n).
 template <class T, class OnQ, class OnPsi>
-void add_line_loads(const Model<T>& model, const LineState<T>& at, std::vector<LineStep<T>>& line, OnQ& on_q,
-                    OnPsi& on_psi) {
+void add_along_loads(const Model<T>& model, const LineState<T>& at, OnQ& on_q, OnPsi& on_psi) {
   const Symbols symbols(*model.scene);
   for (std::size_t i = 0; i < model.along_loads.size(); ++i) {
     const auto& [law, names] = model.along_loads[i];
@@ -144,6 +143,13 @@ void add_line_loads(const Model<T>& model, const LineState<T>& at, std::vector<L
       if (symbols.is_psi(symbol)) on_psi[symbol - symbols.psi0] += share;
     }
   }
+}
+
+/// The same, and between points. `line` has a place for each link where there is a load between points.
+template <class T, class OnQ, class OnPsi>
+void add_line_loads(const Model<T>& model, const LineState<T>& at, std::vector<LineStep<T>>& line, OnQ& on_q,
+                    OnPsi& on_psi) {
+  add_along_loads(model, at, on_q, on_psi);
   for (const auto& load : model.between_loads) {
     const auto [r, rate] = detail::between(model, load, at, line);
     const Vec3<T> force = r * detail::taken_a_metre<T>(load, r, rate);

@@ -49,8 +49,10 @@ class InertialTracer final : public Tracer {
     const std::vector<Motion> rates = motions([&](int j) { return at().qd[j]; });
     const std::vector<Motion> accelerations = bias_accelerations(rates);
     ExpressionVector load = ExpressionVector::Constant(model().m(), E(0.0));
+    ExpressionVector on_psi = ExpressionVector::Constant(model().n(), E(0.0));
     add_coordinate_loads<E>(model(), at().q, at().qd, load);
-    ExpressionVector h = at().C.transpose().lazyProduct(load);
+    add_along_loads<E>(model(), frames_.line_state(), load, on_psi);
+    ExpressionVector h = at().C.transpose().lazyProduct(load) + on_psi;
     for (const Element& e : elements_) {
       const V3& w = rates[e.frame].w;
       const V3& alpha = accelerations[e.frame].w;
@@ -65,6 +67,7 @@ class InertialTracer final : public Tracer {
       }
     }
     subtract_loads(h);
+    add_between_loads(rates, h);
     return h;
   }
 
@@ -79,7 +82,7 @@ class InertialTracer final : public Tracer {
       energy.potential -= model().gravity.dot(V3(vector_of(poses_[e.origin].origin) * e.mass + e.moment));
     }
     energy.potential -= frames_.inertias()[0].moment.dot(model().gravity);
-    energy.potential += spring_potential<E>(model(), at().q);
+    energy.potential += frames_.spring_potentials();
     return energy;
   }
 
@@ -212,6 +215,35 @@ class InertialTracer final : public Tracer {
         const Motion& column = columns_[static_cast<std::size_t>(k)][f];
         h[k] += column.v.dot(force) + column.w.dot(moment);
       }
+    }
+  }
+
+  /// Where an end of a load between points is, and how it moves by some direction.
+  V3 arm_of(std::size_t load, std::size_t end) const {
+    const auto frame = static_cast<std::size_t>(model().scene->between_loads[load].ends[end].frame);
+    return vector_of(poses_[frame].turned(model().between_loads[load].point[end]));
+  }
+  V3 parted_by(std::size_t load, const std::vector<Motion>& motions) const {
+    V3 by = zero3();
+    for (std::size_t end : {0u, 1u}) {
+      const auto frame = static_cast<std::size_t>(model().scene->between_loads[load].ends[end].frame);
+      const V3 move = motions[frame].v + cross(motions[frame].w, arm_of(load, end));
+      by = end == 1 ? V3(by + move) : V3(by - move);
+    }
+    return by;
+  }
+
+  void add_between_loads(const std::vector<Motion>& rates, ExpressionVector& h) const {
+    for (std::size_t i = 0; i < model().between_loads.size(); ++i) {
+      const auto& load = model().between_loads[i];
+      const auto& ends = model().scene->between_loads[i].ends;
+      const auto place = [&](std::size_t end) {
+        return V3(vector_of(poses_[static_cast<std::size_t>(ends[end].frame)].origin) + arm_of(i, end));
+      };
+      const V3 r = place(1) - place(0);
+      const V3 force = r * detail::taken_a_metre<E>(load, r, load.damps ? parted_by(i, rates) : zero3());
+      for (int k = 0; k < h.size(); ++k)
+        h[k] += force.dot(parted_by(i, columns_[static_cast<std::size_t>(k)]));
     }
   }
 

@@ -113,11 +113,11 @@ class LinkFrames {
   /// coordinates (m), and along the independent ones directly (n).
   void add_spring_dampers(ExpressionVector& on_q, ExpressionVector& on_psi) const;
   Expression spring_potentials() const;
+  LineState<Expression> line_state() const;
   /// Takes the external loads off the frames' wrenches.
   void subtract_loads(std::vector<Wrench>& wrench) const;
 
  private:
-  LineState<Expression> line_state() const;
   void place_links();
   void lump_bodies();
 
