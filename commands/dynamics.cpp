@@ -106,6 +106,8 @@ void print_lines(const nlohmann::json& value, const std::string& name) {
   const bool matrix = value.is_array() && !value.empty() && value[0].is_array();
   if (value.is_object()) {
     for (const auto& [key, inner] : value.items()) print_lines(inner, name.empty() ? key : name + "." + key);
+  } else if (value.is_number()) {
+    fmt::print("{}\n  {:.15g}\n", name, value.get<double>());
   } else if (matrix) {
     fmt::print("{}\n", name);
     for (const auto& row : value) fmt::print("  {: .15e}\n", fmt::join(row.get<std::vector<double>>(), "  "));

@@ -13,7 +13,7 @@ constexpr int kMostIterations = 200;
 constexpr double kLongestStep = 0.5;  // rad, or of the size
 constexpr double kCloses = 1e-12;
 
-double largest(const Vector& r) { return r.size() == 0 ? 0.0 : r.cwiseAbs().maxCoeff(); }
+double largest_part(const Vector& r) { return r.size() == 0 ? 0.0 : r.cwiseAbs().maxCoeff(); }
 
 Vector moved(const Closing::Part& part, const Vector& x, const Vector& step) {
   Vector to = x;
@@ -28,14 +28,14 @@ Settled settle(Closing& closing, const Closing::Part& part, Vector& x, const Vec
   Settled result;
   Vector r = closing.residual(part, x, psi, t);
   double damping = 0;
-  for (; result.iterations < kMostIterations; ++result.iterations) {
+  for (; !part.unknowns.empty() && result.iterations < kMostIterations; ++result.iterations) {
     if (!r.allFinite()) break;
     const SingularValues slopes = singular_values(closing.slopes(part, x, psi, t));
     if (slopes.s.size() == 0 || !(slopes.s[0] > 0)) break;
     bool went = false;
     for (int tries = 0; tries < 12 && !went; ++tries) {
       Vector step = slopes.solve(-r, 1e-11, damping * slopes.s[0]);
-      const double length = largest(step);
+      const double length = largest_part(step);
       if (length > kLongestStep) step *= kLongestStep / length;
       const Vector to = moved(part, x, step);
       const Vector there = closing.residual(part, to, psi, t);
@@ -50,7 +50,7 @@ Settled settle(Closing& closing, const Closing::Part& part, Vector& x, const Vec
     }
     if (!went) break;  // round-off, or nothing nearer
   }
-  result.residual = largest(r);
+  result.residual = largest_part(r);
   result.closes = result.residual < kCloses;
   return result;
 }
@@ -67,8 +67,7 @@ double apart(const Closing& closing, const Closing::Part& part, const Vector& on
 
 void unwind(const Closing& closing, Vector& x, const Vector& guess) {
   for (int i = 0; i < closing.unknowns(); ++i)
-    if (closing.turns(i))
-      x[i] = guess[i] + std::remainder(x[i] - guess[i], 2 * std::numbers::pi);
+    if (closing.turns(i)) x[i] = guess[i] + std::remainder(x[i] - guess[i], 2 * std::numbers::pi);
 }
 
 }  // namespace mixloop

@@ -114,7 +114,7 @@ std::vector<double> symbol_values(const Scene& scene, const std::vector<double>&
   values.insert(values.end(), parameters.begin(),
                 parameters.begin() + static_cast<std::ptrdiff_t>(scene.parameters.size()));
   values.insert(values.end(), scene.home.begin(), scene.home.end());
-  values.resize(values.size() + scene.coordinates.size());
+  for (const auto& coordinate : scene.coordinates) values.push_back(coordinate.home);
   return values;
 }
 

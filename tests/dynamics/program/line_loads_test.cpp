@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "certification.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/reference.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/scene/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/random_mechanism.hpp"
 #include "tests/support/allocation_counter.hpp"

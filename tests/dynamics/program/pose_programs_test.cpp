@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "certification.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/program/explanation.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/scene/load_scene.hpp"
 #include "notation/document.hpp"
 
 namespace mixloop::testing {

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/procedure/procedure.hpp"
-#include "dynamics/scene/load_scene.hpp"
 #include "tests/support/bad_input.hpp"
 
 namespace mixloop {
