@@ -52,8 +52,7 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   const auto number = [&](const std::string& name, const Dimension& wanted) -> std::optional<double> {
     const NodePtr value = entry.find(name);
     if (!value) return std::nullopt;
-    const Formula psi =
-        draft.formula(*value, wanted, "the position of '" + name + "'", draft.fixed);
+    const Formula psi = draft.formula(*value, wanted, "the position of '" + name + "'", draft.fixed);
     if (!psi.is_constant())
       throw InputError("varying_number", value->place, "home depends on no parameter; expected a number");
     return psi.constant();

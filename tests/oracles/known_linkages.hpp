@@ -18,9 +18,9 @@ T decimal(const char* text) {
     return T(text);
 }
 
-/// Andrews' squeezing mechanism, angles (beta, Theta, gamma, Phi, delta, Omega, epsilon): the centres, loops and numbers of
-/// Hairer & Wanner, Solving ODEs II, VII.7, and of the test set for initial value problems. Its torque, on beta, is
-/// 0.033 N m.
+/// Andrews' squeezing mechanism, angles (beta, Theta, gamma, Phi, delta, Omega, epsilon): the centres, loops
+/// and numbers of Hairer & Wanner, Solving ODEs II, VII.7, and of the test set for initial value problems.
+/// Its torque, on beta, is 0.033 N m.
 template <class T>
 Linkage<T> seven_bodies() {
   const auto num = [](const char* text) { return decimal<T>(text); };
@@ -41,12 +41,10 @@ Linkage<T> seven_bodies() {
       {num("0.07050"), num("1.169e-5"), delta, {xa, ya, {{delta, ta, tb}}}},
       {num("0.00706"), num("5.667e-7"), Omega, {xa, ya, {{epsilon, 0, -u}, {Omega, zf - fa, 0}}}},
       {num("0.05498"), num("1.912e-5"), epsilon, {xa, ya, {{epsilon, -ub, -ua}}}}};
-  linkage.loops = {
-      {-xb, -yb, {{beta, rr, 0}, {Theta, -d, 0}, {gamma, 0, ss}}},
-      {-xa, -ya, {{beta, rr, 0}, {Theta, -d, 0}, {Phi, 0, e}, {delta, -zt, 0}}},
-      {-xa, -ya, {{beta, rr, 0}, {Theta, -d, 0}, {Omega, -zf, 0}, {epsilon, 0, u}}}};
-  linkage.springs = {
-      {{xb, yb, {{gamma, sd, -sc}}}, num("0.014"), num("0.072"), num("4530"), num("0.07785")}};
+  linkage.loops = {{-xb, -yb, {{beta, rr, 0}, {Theta, -d, 0}, {gamma, 0, ss}}},
+                   {-xa, -ya, {{beta, rr, 0}, {Theta, -d, 0}, {Phi, 0, e}, {delta, -zt, 0}}},
+                   {-xa, -ya, {{beta, rr, 0}, {Theta, -d, 0}, {Omega, -zf, 0}, {epsilon, 0, u}}}};
+  linkage.springs = {{{xb, yb, {{gamma, sd, -sc}}}, num("0.014"), num("0.072"), num("4530"), num("0.07785")}};
   return linkage;
 }
 
@@ -70,8 +68,7 @@ Linkage<T> four_bar_linkage() {
       {num("1"), num("0.01"), crank, {0, 0, {{crank, num("0.15"), 0}}}},
       {num("2"), num("0.05"), coupler, {0, 0, {{crank, num("0.3"), 0}, {coupler, num("0.45"), 0}}}},
       {num("1.5"), num("0.04"), rocker, {1, 0, {{rocker, num("0.4"), 0}}}}};
-  linkage.loops = {
-      {-1, 0, {{crank, num("0.3"), 0}, {coupler, num("0.9"), 0}, {rocker, num("-0.8"), 0}}}};
+  linkage.loops = {{-1, 0, {{crank, num("0.3"), 0}, {coupler, num("0.9"), 0}, {rocker, num("-0.8"), 0}}}};
   return linkage;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Linkages in one plane by Lagrange's equations of the first kind: all angles are coordinates, the loops are equations
-// with multipliers, nothing is solved for but accelerations. A point is written as publications write it, a sum of
-// vectors that have turned by sums of angles. Motions by Gragg's extrapolation, which shares no table with
-// integrators/.
+// Linkages in one plane by Lagrange's equations of the first kind: all angles are coordinates, the loops are
+// equations with multipliers, nothing is solved for but accelerations. A point is written as publications
+// write it, a sum of vectors that have turned by sums of angles. Motions by Gragg's extrapolation, which
+// shares no table with integrators/.
 #pragma once
 
 #include <cmath>
@@ -68,7 +68,8 @@ T turned_by(const std::vector<int>& by, const LinkageVector<T>& q) {
 }
 
 template <class T>
-PointMotion<T> motion_of(const LinkagePoint<T>& point, const LinkageVector<T>& q, const LinkageVector<T>& qd) {
+PointMotion<T> motion_of(const LinkagePoint<T>& point, const LinkageVector<T>& q,
+                         const LinkageVector<T>& qd) {
   using std::cos;
   using std::sin;
   PointMotion<T> m;
@@ -141,7 +142,8 @@ void close(const Linkage<T>& linkage, LinkageVector<T>& q, int times = 8) {
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> G(n - 1, n - 1);
   for (int time = 0; time < times; ++time) {
     for (std::size_t k = 0; k < linkage.loops.size(); ++k)
-      G.middleRows(2 * static_cast<Eigen::Index>(k), 2) = motion_of(linkage.loops[k], q, q).J.rightCols(n - 1);
+      G.middleRows(2 * static_cast<Eigen::Index>(k), 2) =
+          motion_of(linkage.loops[k], q, q).J.rightCols(n - 1);
     q.tail(n - 1) -= G.partialPivLu().solve(openings(linkage, q));
   }
 }
@@ -159,8 +161,8 @@ LinkageVector<T> closed_rates(const Linkage<T>& linkage, const LinkageVector<T>&
   return qd;
 }
 
-/// x(t + h) of x' = f(x): the modified midpoint rule in 2, 4, ... 2 `columns` steps, extrapolated in h^2 to order
-/// 2 `columns` (Hairer, Norsett & Wanner, Solving ODEs I, II.9).
+/// x(t + h) of x' = f(x): the modified midpoint rule in 2, 4, ... 2 `columns` steps, extrapolated in h^2 to
+/// order 2 `columns` (Hairer, Norsett & Wanner, Solving ODEs I, II.9).
 template <class T, class Rate>
 LinkageVector<T> extrapolated(const LinkageVector<T>& x, const T& h, int columns, const Rate& f) {
   std::vector<LinkageVector<T>> table;
