@@ -78,8 +78,9 @@ class MujocoFourBar {
 
 void add_mujoco_four_bar(ClosedEngines& engines, const FourBarHome& home) {
   const auto linkage = std::make_shared<MujocoFourBar>(home);
-  // Its constraints are soft: what its stiffest settings leave.
-  engines.push_back({std::string("MuJoCo ") + mj_versionString() + ", its equality of two points", 0.2,
+  // Its constraints are soft, which leaves 1e-5 at rest, and it leaves G' q' out of G q'' = -G' q': as large
+  // as psi'' itself where the linkage moves.
+  engines.push_back({std::string("MuJoCo ") + mj_versionString() + ", its equality of two points", 5,
                      [linkage](const ClosedState& state, double* psidd) { linkage->forward(state, psidd); }});
 }
 
