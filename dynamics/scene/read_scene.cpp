@@ -52,8 +52,7 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   const auto number = [&](const std::string& name, const Dimension& wanted) -> std::optional<double> {
     const NodePtr value = entry.find(name);
     if (!value) return std::nullopt;
-    const Formula psi =
-        draft.formula(*value, wanted, "the position of '" + name + "'", draft.fixed);
+    const Formula psi = draft.formula(*value, wanted, "the position of '" + name + "'", draft.fixed);
     if (!psi.is_constant())
       throw InputError("varying_number", value->place, "home depends on no parameter; expected a number");
     return psi.constant();
@@ -61,10 +60,14 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   for (std::size_t i = 0; i < scene.independent.size(); ++i)
     scene.home[i] =
         number(scene.independent[i].name, scene.independent[i].linear ? kLength : kPure).value_or(0);
+  const auto is_independent = [&](const std::string& name) {  // that transforms name themselves
+    return std::any_of(scene.independent.begin(), scene.independent.end(),
+                       [&](const auto& independent) { return independent.name == name; });
+  };
   for (auto& coordinate : scene.coordinates) {
     if (coordinate.is_solved())
       coordinate.home = number(coordinate.name, coordinate.constraint.dimension).value_or(0);
-    else if (const NodePtr value = entry.find(coordinate.name))
+    else if (const NodePtr value = is_independent(coordinate.name) ? nullptr : entry.find(coordinate.name))
       throw InputError("guess_beside_formula", value->place,
                        "the coordinate '" + coordinate.name +
                            "' follows from its formula and takes no guess; expected motors, and coordinates "
