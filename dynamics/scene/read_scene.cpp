@@ -47,7 +47,13 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   if (!node) return;
   std::vector<std::string> names;
   for (const auto& coordinate : scene.independent) names.push_back(coordinate.name);
-  for (const auto& coordinate : scene.coordinates) names.push_back(coordinate.name);
+  // A motor that a transform names itself has a coordinate of its name.
+  const auto is_independent = [&](const std::string& name) {
+    const auto begin = names.begin(), end = begin + scene.n();
+    return std::find(begin, end, name) != end;
+  };
+  for (const auto& coordinate : scene.coordinates)
+    if (!is_independent(coordinate.name)) names.push_back(coordinate.name);
   const Mapping entry(node, "home", names);
   const auto number = [&](const std::string& name, const Dimension& wanted) -> std::optional<double> {
     const NodePtr value = entry.find(name);
@@ -64,7 +70,7 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   for (auto& coordinate : scene.coordinates) {
     if (coordinate.is_solved())
       coordinate.home = number(coordinate.name, coordinate.constraint.dimension).value_or(0);
-    else if (const NodePtr value = entry.find(coordinate.name))
+    else if (const NodePtr value = entry.find(coordinate.name); value && !is_independent(coordinate.name))
       throw InputError("guess_beside_formula", value->place,
                        "the coordinate '" + coordinate.name +
                            "' follows from its formula and takes no guess; expected motors, and coordinates "
