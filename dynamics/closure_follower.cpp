@@ -12,7 +12,6 @@ constexpr double kClosed = 1e-9;  // of a correction, whose square is left: roun
 constexpr int kMostRepeats = 8;
 constexpr double kNear = 0.02;      // rad, or of the size: what the anchor's rates foretell
 constexpr double kFarthest = 0.25;  // in one step
-constexpr std::size_t kMostInput = 512;
 
 }  // namespace
 
@@ -39,7 +38,7 @@ ClosureFollower::ClosureFollower(std::shared_ptr<const Scene> scene, const Routi
                  sizes_.corrections);
 }
 
-void ClosureFollower::set_parameters(std::span<const double> parameters) noexcept {
+void ClosureFollower::set_parameters(std::span<const double> parameters) {
   std::size_t at = 0;
   const auto put = [&](double number) { anchor_[at++] = number; };
   for (int j : scene_->started) {
@@ -172,22 +171,28 @@ Status ClosureFollower::accept(std::span<const double> psi, double t) noexcept {
 
 Status ClosureFollower::evaluate(Evaluator& evaluator, const Arguments& at, std::size_t takes,
                                  std::span<double> outputs, bool follows) noexcept {
+  if (sizes_.started == 0) {
+    const Status status = evaluator.evaluate(at, outputs);
+    return status == Status::ok ? status : cause_of(status, at);
+  }
   const auto failed = [&](Status status) {
     std::fill(outputs.begin(), outputs.end(), std::numeric_limits<double>::quiet_NaN());
     return status;
   };
-  if (sizes_.started > 0 && follows && !(way_to(at.psi, at.t) <= kNear))
+  if (follows && !(way_to(at.psi, at.t) <= kNear))
     if (const Status status = accept(at.psi, at.t); status != Status::ok) return failed(status);
   std::copy_n(at.input.begin(), takes, input_.begin());
   predict(at.psi, at.t, takes);
   const Status status = solve(evaluator, at, takes, outputs.size());
   if (status == Status::not_closed) return failed(status);
   std::copy_n(output_.begin(), outputs.size(), outputs.begin());
-  if (status == Status::ok) return status;
-  // Which it was: the closures, or what rests on them.
+  return status == Status::ok ? status : cause_of(status, at);
+}
+
+Status ClosureFollower::cause_of(Status status, const Arguments& at) noexcept {
   predict(at.psi, at.t, 0);
-  return solve(closures_, {at.psi, {}, {}, at.t}, 0, watched_.size()) == Status::ok ? status
-                                                                                    : Status::not_closed;
+  const bool closed = solve(closures_, {at.psi, {}, {}, at.t}, 0, watched_.size()) == Status::ok;
+  return closed ? status : Status::not_closed;
 }
 
 }  // namespace mixloop

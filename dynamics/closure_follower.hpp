@@ -40,7 +40,7 @@ class ClosureFollower {
   explicit operator bool() const { return scene_ != nullptr; }
 
   /// Starts at home, these parameters (and a factor on friction, last) reached from the scene's defaults.
-  void set_parameters(std::span<const double> parameters) noexcept;
+  void set_parameters(std::span<const double> parameters);
 
   /// The same where the mechanism stands: the anchor stays.
   void change_parameters(std::span<const double> parameters) noexcept { closures_.set_up(parameters); }
@@ -70,6 +70,8 @@ class ClosureFollower {
   /// the scene's size.
   double predict(std::span<const double> psi, double t, std::size_t from) noexcept;
   Status step(std::span<const double> psi, double t) noexcept;
+  /// Of an evaluation that failed: the closures, or what rests on them.
+  Status cause_of(Status status, const Arguments& at) noexcept;
   double way_to(std::span<const double> psi, double t) const noexcept;
 
   std::shared_ptr<const Scene> scene_;

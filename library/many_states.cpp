@@ -9,6 +9,8 @@ namespace mixloop::inside {
 
 ManyStates::ManyStates(const Equations& equations, Purpose purpose, std::span<const double> parameters) {
   const auto scene = std::make_shared<const Scene>(equations.scene());
+  // Each state would need a start of its own for its closures: one after the other they find it.
+  if (!scene->started.empty()) return;
   std::string complaint;
   code_ = LaneCode::load(
       std::string(name_of(purpose)) + "\n" + scene->canonical, [&] { return trace(scene, purpose).program; },

@@ -21,9 +21,9 @@ namespace mixloop {
 namespace {
 
 /// "'loop 1' (2.3 mm)" of the closures that are open by more than round-off.
-std::vector<std::string> open_closures(Closing& closing, const Vector& x) {
+std::vector<std::string> open_closures(Closing& closing, const Vector& x, const Vector& psi) {
   const auto whole = closing.whole();
-  const Vector r = closing.residual(whole, x, closing.home_psi());
+  const Vector r = closing.residual(whole, x, psi);
   std::vector<std::string> texts;
   for (std::size_t c = 0; c < closing.scene().closures.size(); ++c) {
     double most = 0;
@@ -51,11 +51,35 @@ std::vector<std::string> open_closures(Closing& closing, const Vector& x) {
                      fmt::format("the closures contradict each other: with as many of them as there are "
                                  "coordinates without a formula, {} stay open. Expected fewer closures, or "
                                  "more coordinates",
-                                 fmt::join(open_closures(closing, x), ", ")));
+                                 fmt::join(open_closures(closing, x, closing.home_psi()), ", ")));
   throw InputError("cannot_assemble", place,
                    fmt::format("at home the mechanism can't be put together: at the nearest, {} stay open. "
                                "Expected other lengths, or a home that is within reach",
-                               fmt::join(open_closures(closing, x), ", ")));
+                               fmt::join(open_closures(closing, x, closing.home_psi()), ", ")));
+}
+
+/// All closures hold beside home, too, where the motors move a little and the blocks are solved.
+void refuse_held_motors(Closing& closing, const std::vector<Closing::Part>& blocks, const Vector& x) {
+  Closing::Part solved;
+  for (const auto& block : blocks) {
+    solved.unknowns.insert(solved.unknowns.end(), block.unknowns.begin(), block.unknowns.end());
+    solved.rows.insert(solved.rows.end(), block.rows.begin(), block.rows.end());
+  }
+  Seeded seeded(11);
+  for (int trial = 0; trial < 3; ++trial) {
+    Vector moved = x, psi = closing.home_psi();
+    for (int i = 0; i < psi.size(); ++i)
+      psi[i] += 0.02 * seeded.draw() *
+                (closing.scene().independent[static_cast<std::size_t>(i)].linear ? closing.scene().size : 1);
+    if (!settle(closing, solved, moved, psi).closes) continue;
+    const auto open = open_closures(closing, moved, psi);
+    if (!open.empty())
+      throw InputError(
+          "overconstrained", closing.scene().closures.front().place,
+          fmt::format("where the motors move, {} don't close: they hold what is to move. Expected "
+                      "fewer closures, or more coordinates",
+                      fmt::join(open, ", ")));
+  }
 }
 
 struct Found {
@@ -172,6 +196,7 @@ void assemble(Scene& scene) {
   if (!(closing.residual(closing.whole(), x, closing.home_psi()).cwiseAbs().maxCoeff() < 1e-11))
     refuse(closing, x);
   structure = structure_of(closing, x);
+  refuse_held_motors(closing, structure.blocks, x);
   refuse_motors_that_move_nothing(scene, closing, x);
   put_home(scene, closing, x);
   for (int row : structure.redundant) scene.redundant_rows.push_back(closing.row(row));

@@ -147,8 +147,8 @@ class Walk {
       const auto both = detail::across<E>(n, static_cast<int>(least));
       one = both[0];
     }
-    return {one, V3(n[1] * one[2] - n[2] * one[1], n[2] * one[0] - n[0] * one[2],
-                    n[0] * one[1] - n[1] * one[0])};
+    return {one,
+            V3(n[1] * one[2] - n[2] * one[1], n[2] * one[0] - n[0] * one[2], n[0] * one[1] - n[1] * one[0])};
   }
 
   const Model<E>& model_;
@@ -166,7 +166,7 @@ class Walk {
 
 std::optional<PlanarLoop> planar_loop(const Model<Expression>& model, int closure) {
   const auto& said = model.scene->closures[static_cast<std::size_t>(closure)];
-  if (said.kind != Scene::Closure::Kind::coincide || said.in >= 0) return std::nullopt;
+  if (!said.has_points() || said.in >= 0) return std::nullopt;
   return Walk(model, closure).loop();
 }
 

@@ -38,13 +38,13 @@ struct LoopVector {
   int length = -1;
 };
 
-/// A loop of links that all turn about one direction: the vectors from the closure's first point to its second,
-/// whose sum is nothing when it is closed.
+/// A loop of links that all turn about one direction: the vectors from the closure's first point to its
+/// second, whose sum is nothing when it is closed.
 struct PlanarLoop {
   std::vector<LoopVector> vectors;
 };
 
-/// The loop that a coincide closure makes; nothing where it isn't planar.
+/// The loop that a closure between two points makes; nothing where it isn't planar.
 std::optional<PlanarLoop> planar_loop(const Model<Expression>& model, int closure);
 
 }  // namespace mixloop

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One unknown and one row: an angle whose cosine and sine stand in it linearly, or a length up to its square.
 #include <algorithm>
+#include <cmath>
 
 #include "dynamics/symbolic/block_solver.hpp"
 #include "dynamics/symbolic/derivative.hpp"
@@ -34,6 +35,13 @@ E without(const E& x, const std::vector<E>& parts) {
   Nodes nodes, zeros(parts.size(), graph.zero());
   for (const E& part : parts) nodes.push_back(part.node());
   return E::of(substituted(graph, Nodes{x.node()}, nodes, zeros)[0]);
+}
+
+/// Numbers but for their rounding, or one node.
+bool are_equal(const E& x, const E& y) {
+  if (x.is_number() != y.is_number()) return false;
+  if (!x.is_number()) return x.node() == y.node();
+  return std::abs(x.number() - y.number()) <= 1e-14 * std::max(std::abs(x.number()), std::abs(y.number()));
 }
 
 class Single {
@@ -73,7 +81,7 @@ class Single {
     return all.value_or(WholeSum{{unknown_, 1}});
   }
 
-  // A c + B s + C = 0.
+  // A c + B s + C = 0, beside what is on the unit circle constant.
   std::optional<SolvedBlock> angle() {
     WholeSum of = beside();
     const int sense = of.at(unknown_);
@@ -86,11 +94,13 @@ class Single {
     const E angle = stand_in(number_, 0), c = stand_in(number_, 1), s = stand_in(number_, 2);
     recording_graph().set_pair(angle.node(), c.node(), s.node());
     const E row = row_where((angle - known) * E(sense));
-    const E A = slope(row, c), B = slope(row, s), C = without(row, {c, s});
-    for (const E* part : {&A, &B})
-      if (depends(*part, c) || depends(*part, s)) return std::nullopt;
-    for (const E* part : {&A, &B, &C})
-      if (depends(*part, angle)) return std::nullopt;
+    E A = slope(row, c), B = slope(row, s), C = without(row, {c, s});
+    // Of a distance's square half of each second derivative stands beside c^2 + s^2 = 1.
+    const E square = slope(A, c);
+    if (!is_zero(slope(A, s)) || !are_equal(square, slope(B, s))) return std::nullopt;
+    A = without(A, {c, s}), B = without(B, {c, s}), C += E(0.5) * square;
+    for (const E& part : {square, A, B, C})
+      if (depends(part, angle) || depends(part, c) || depends(part, s)) return std::nullopt;
     Planar direction;
     const double side = home_.of(B) * std::cos(alpha) - home_.of(A) * std::sin(alpha);
     if (is_zero(A)) {

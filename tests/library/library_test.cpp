@@ -116,6 +116,35 @@ TEST(Library, ManyStatesHaveTheBitsOfOneAfterTheOther) {
   }
 }
 
+/// A crank, a coupler and a rocker, in closed form; with a rod in space instead, by corrections.
+constexpr const char* kFourBar = R"yaml(
+motors: [crank]
+coordinates: [q2, q3]
+transforms:
+  - {from: 0, to: crank, theta: crank, a: 0.3 m}
+  - {from: crank, to: coupler, theta: q2, a: 0.9 m}
+  - {from: 0, to: pivot, a: 1 m}
+  - {from: pivot, to: rocker, theta: q3, a: 0.8 m}
+closures: [{coincide: [{frame: coupler}, {frame: rocker}], axes: [x, y]}]
+bodies: [{frame: coupler, mass: 1 kg, inertia: {xx: 0, yy: 0.1, zz: 0.1}}]
+home: {crank: 60 deg, q2: -20 deg, q3: 100 deg}
+)yaml";
+
+TEST(Library, EvaluatesWhereChainsClose) {
+  for (const Evaluation how : {Evaluation::machine_code, Evaluation::interpreter, Evaluation::reference}) {
+    Equations equations(Scene::parse(kFourBar, "four_bar.yaml"), {Purpose::mass_matrix}, how);
+    std::vector<double> psi, all(40), one(1);
+    for (int k = 0; k < 40; ++k) psi.push_back(1.1 + 0.02 * k);
+    const std::vector<double> t(40, 0.0);
+    ASSERT_EQ(equations.evaluate_all(Purpose::mass_matrix, psi, {}, t, {}, all), Status::ok);
+    for (std::size_t k = 0; k < 40; ++k) {
+      ASSERT_EQ(equations.evaluate(Purpose::mass_matrix, {std::span(psi).subspan(k, 1), {}}, {}, one),
+                Status::ok);
+      EXPECT_NEAR(all[k], one[0], 1e-14 * one[0]);
+    }
+  }
+}
+
 TEST(Library, SimulatesWithTheBytesOfTheCommandByEveryRoute) {
   Command command({bin("mixloop"), "simulate", experiment("paper"), "--json"});
   ASSERT_EQ(command.wait(), 0) << command.err();

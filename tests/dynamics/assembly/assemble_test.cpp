@@ -127,7 +127,7 @@ TEST(Assemble, EveryKindOfClosure) {
   const std::string one_rod =
       with(with(by_distance, "  - {from: crank, to: coupler, theta: q2, a: b}\n", ""), "q2: -40 deg, ", "");
   const std::string text = with(with(one_rod,
-                                     "  - {frame: coupler, mass: 2 kg, center_of_mass: [-b/2, 0.05, 0], "
+                                     "  - {frame: coupler, mass: 2 kg, center_of_mass: [-b/2, 0, 0], "
                                      "inertia: {xx: 0, yy: 0.05, zz: 0.05}}\n",
                                      ""),
                                 "frame: coupler", "frame: rocker");

@@ -13,7 +13,7 @@ inline Scene loaded(const std::string& text) { return load_scene(parse_document(
 inline const std::string kLinks = R"yaml(
 bodies:
   - {frame: crank, mass: 1 kg, center_of_mass: [-a/2, 0, 0], inertia: {xx: 0, yy: 0.01, zz: 0.01}}
-  - {frame: coupler, mass: 2 kg, center_of_mass: [-b/2, 0.05, 0], inertia: {xx: 0, yy: 0.05, zz: 0.05}}
+  - {frame: coupler, mass: 2 kg, center_of_mass: [-b/2, 0, 0], inertia: {xx: 0, yy: 0.05, zz: 0.05}}
   - {frame: rocker, mass: 1.5 kg, center_of_mass: [-c/2, 0, 0], inertia: {xx: 0, yy: 0.04, zz: 0.04}}
 gravity: [0, -9.81, 0]
 end_effector: {frame: coupler, axes: [x]}

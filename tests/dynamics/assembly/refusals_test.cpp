@@ -29,7 +29,7 @@ const std::vector<Refusal>& refusals() {
        closing("  - {name: loop, coincide: [{frame: coupler}, {frame: rocker}]}\n"
                "  - {name: fixed, zero: crank - 60 deg}"),
        "overconstrained", "'fixed'"},
-      {"lengths that don't reach", with(four_bar(), "b: 0.9 m", "b: 0.1 m"), "cannot_assemble",
+      {"lengths that don't reach", with(four_bar(), "b: 0.9 m", "b: 0.05 m"), "cannot_assemble",
        "'loop' (by "},
       {"two ways as near", four_bar("crank: 60 deg, q2: -77.0 deg, q3: 162.7 deg"), "ambiguous_branch",
        "about as near"},
