@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Random mechanisms whose chains close, against Lagrange multipliers on the tree that they are cut open to:
+// the programs, and the procedure in 113 bits.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dynamics/equations.hpp"
+#include "tests/oracles/closed_mechanism.hpp"
+#include "tests/oracles/in_wide.hpp"
+#include "tests/stress/figure.hpp"
+#include "tests/stress/scenes.hpp"
+
+namespace mixloop::stress {
+namespace {
+
+using oracle::ClosedMechanism;
+using WideVector = oracle::VectorX<Wide>;
+using WideMatrix = oracle::MatrixX<Wide>;
+
+WideVector widened(const std::vector<double>& x) {
+  WideVector wide(static_cast<Eigen::Index>(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) wide[static_cast<Eigen::Index>(i)] = Wide(x[i]);
+  return wide;
+}
+
+/// What the multipliers say at the mechanism's state.
+struct Expected {
+  WideMatrix M, slopes;  ///< of psi'' by psi, psi', tau
+  WideVector h, psidd;
+};
+
+/// By a mechanism's own tree; `home` is the pose that was put together, in all digits that a double has.
+class Multipliers {
+ public:
+  Multipliers(const ClosedMechanism& mechanism, const Scene& scene)
+      : mechanism_(mechanism), home_psi_(widened(mechanism.home_psi())), home_(mechanism.pose()) {
+    for (int j = 0; j < mechanism.m(); ++j)
+      if (scene.coordinates[static_cast<std::size_t>(j)].is_solved())
+        home_[j] = Wide(scene.coordinates[static_cast<std::size_t>(j)].home);
+    is_closed_ = mechanism.close<Wide>(home_, home_psi_, Wide(0));
+  }
+
+  /// Whether the scene's home, on which the search for the state starts, closes the tree.
+  bool is_closed() const { return is_closed_; }
+  const WideVector& home() const { return home_; }
+
+  /// False where the way to the state leads out of reach.
+  bool look(Expected& expected) {
+    const auto& state = mechanism_.state();
+    const WideVector psi = widened(state.psi), psid = widened(state.psid), tau = widened(state.input);
+    const Wide t(state.t);
+    q_ = home_;
+    if (!mechanism_.follow<Wide>(q_, home_psi_, psi, t)) return false;
+    const auto constraints = mechanism_.rates<Wide>(q_, psi, psid, t);
+    const auto tree = mechanism_.tree<Wide>();
+    const int n = mechanism_.n();
+    expected.M = constraints.C.transpose() * oracle::tree_mass_matrix(tree, q_) * constraints.C;
+    expected.h = oracle::multiplier_inverse_dynamics<Wide>(tree, constraints, WideVector::Zero(n));
+    expected.psidd = psidd(psi, psid, tau, t);
+    // Central differences: h^2 = 1e-22 of the third derivative, noise 1e-33 / h = 1e-22.
+    const Wide step(1e-11);
+    expected.slopes.resize(n, 3 * n);
+    for (int k = 0; k < 3 * n; ++k) {
+      const auto at = [&](const Wide& by) {
+        WideVector moved[] = {psi, psid, tau};
+        moved[k / n][k % n] += by;
+        return psidd(moved[0], moved[1], moved[2], t);
+      };
+      expected.slopes.col(k) = (at(step) - at(-step)) / (2 * step);
+    }
+    return true;
+  }
+
+ private:
+  WideVector psidd(const WideVector& psi, const WideVector& psid, const WideVector& tau, const Wide& t) {
+    WideVector q = q_;
+    if (!mechanism_.close<Wide>(q, psi, t)) return WideVector::Constant(psi.size(), Wide(NAN));
+    return mechanism_.forward_dynamics<Wide>(mechanism_.rates<Wide>(q, psi, psid, t), psi, tau, t).psidd;
+  }
+
+  const ClosedMechanism& mechanism_;
+  WideVector home_psi_, home_, q_;
+  bool is_closed_ = false;
+};
+
+double difference(const auto& found, const auto& expected) {
+  const double size = static_cast<double>(Wide(expected.cwiseAbs().maxCoeff()));
+  const double apart = static_cast<double>(Wide((found - expected).cwiseAbs().maxCoeff()));
+  return apart / std::max(size, 1.0);
+}
+
+/// The procedure in 113 bits: M, h and psi'', the worst relative difference.
+double in_wide(const SharedScene& scene, const ClosedMechanism& mechanism, const Expected& expected) {
+  std::vector<Wide> parameters;
+  for (double value : scene->default_parameters()) parameters.emplace_back(value);
+  const auto model = make_model<Wide>(scene, WideSpan(parameters));
+  Workspace<Wide> ws(model);
+  const auto& state = mechanism.state();
+  const auto wide = [](const std::vector<double>& x) { return std::vector<Wide>(x.begin(), x.end()); };
+  const auto psi = wide(state.psi), psid = wide(state.psid), tau = wide(state.input);
+  const Wide t(state.t);
+  double worst = difference(mass_matrix<Wide>(model, psi, t, ws), expected.M);
+  worst = std::max(worst, difference(bias<Wide>(model, psi, psid, t, ws), expected.h));
+  return std::max(worst, difference(forward_dynamics<Wide>(model, psi, psid, tau, t, ws), expected.psidd));
+}
+
+constexpr auto kAll = {Purpose::mass_matrix, Purpose::bias, Purpose::forward_dynamics, Purpose::linearisation};
+
+const WideMatrix expected_of(Purpose purpose, const Expected& expected) {
+  if (purpose == Purpose::mass_matrix) return expected.M;
+  if (purpose == Purpose::bias) return expected.h;
+  return purpose == Purpose::forward_dynamics ? WideMatrix(expected.psidd) : expected.slopes;
+}
+
+/// Why a mechanism isn't compared, or empty.
+class Comparison {
+ public:
+  Comparison() : programs_("closed_mechanisms", "relative", 1e-9, length(40, 1000) * 4),
+                 wide_("closed_mechanisms_wide", "relative", 1e-24, length(40, 1000)) {}
+  ~Comparison() {
+    programs_.note(fmt::format("{} compared, {} too long to linearise, {} on another branch, {} ambiguous",
+                               compared_, too_long_, elsewhere_, ambiguous_));
+  }
+
+  void look(std::uint64_t seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    const ClosedMechanism mechanism(seed);
+    SharedScene scene;
+    try {
+      scene = scene_of(mechanism.scene_text());
+    } catch (const InputError& error) {
+      // A guess that is off may lie between two ways to put the mechanism together.
+      EXPECT_EQ(error.code, "ambiguous_branch") << error.message;
+      ++ambiguous_;
+      return;
+    }
+    Multipliers multipliers(mechanism, *scene);
+    ASSERT_TRUE(multipliers.is_closed());
+    if (!is_nearest(mechanism, multipliers)) return;
+    Expected expected;
+    ASSERT_TRUE(multipliers.look(expected));
+    ++compared_;
+    wide_.look(in_wide(scene, mechanism, expected), [&] { return fmt::format("seed {}", seed); });
+    compare(seed, mechanism, scene, expected, Evaluation::interpreter);
+    if (seed % (full_length() ? 50 : 20) == 1)
+      compare(seed, mechanism, scene, expected, Evaluation::machine_code);
+  }
+
+ private:
+  /// Whether the pose that was drawn is the one that was put together. It must be no farther from the guess.
+  bool is_nearest(const ClosedMechanism& mechanism, const Multipliers& multipliers) {
+    double found = 0, drawn = 0, apart = 0;
+    const auto pose = mechanism.pose();
+    for (const auto& guess : mechanism.guesses()) {
+      const double home = static_cast<double>(multipliers.home()[guess.coordinate]);
+      found += std::pow(home - guess.value, 2), drawn += std::pow(pose[guess.coordinate] - guess.value, 2);
+      apart = std::max(apart, std::abs(home - pose[guess.coordinate]));
+    }
+    if (apart < 1e-9) return true;
+    ++elsewhere_;
+    EXPECT_LT(found, drawn) << "another branch than the nearest";
+    return false;
+  }
+
+  void compare(std::uint64_t seed, const ClosedMechanism& mechanism, const SharedScene& scene,
+               const Expected& expected, Evaluation how) {
+    for (const Purpose purpose : kAll) {
+      std::shared_ptr<const Equations> equations;
+      try {
+        equations = equations_of(scene, how, {purpose});
+      } catch (const InputError& error) {
+        EXPECT_EQ(error.code, "too_large") << error.message;
+        ++too_long_;
+        continue;
+      }
+      Equations::Workspace program(equations, scene->default_parameters());
+      auto out = program.outputs(purpose);
+      const auto& state = mechanism.state();
+      EXPECT_EQ(program.evaluate(purpose, {state.psi, state.psid, state.input, state.t}, out), Status::ok);
+      const WideMatrix right = expected_of(purpose, expected);
+      const WideMatrix found =
+          Eigen::Map<const Eigen::MatrixXd>(out.data(), right.rows(), right.cols()).cast<Wide>();
+      programs_.look(difference(found, right),
+                     [&] { return fmt::format("seed {}, {}", seed, name_of(purpose)); });
+    }
+  }
+
+  Figure programs_, wide_;
+  int compared_ = 0, too_long_ = 0, elsewhere_ = 0, ambiguous_ = 0;
+};
+
+TEST(ClosedMechanisms, AgreeWithLagrangeMultipliersOnTheTreeThatTheyAreCutOpenTo) {
+  Comparison comparison;
+  for (std::int64_t seed = 1; seed <= length(40, 1000); ++seed)
+    comparison.look(static_cast<std::uint64_t>(seed));
+}
+
+}  // namespace
+}  // namespace mixloop::stress
