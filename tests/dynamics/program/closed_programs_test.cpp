@@ -305,6 +305,10 @@ TEST(ClosedProgram, ReachesParametersFromTheDefaults) {
   ASSERT_EQ(far.evaluate(Purpose::mass_matrix, {.psi = psi, .psid = {}}, M), Status::ok);
   ASSERT_EQ(near.evaluate(Purpose::mass_matrix, {.psi = psi, .psid = {}}, expected), Status::ok);
   EXPECT_NEAR(M[0], expected[0], 1e-14 * expected[0]);
+  Equations::Workspace procedure(equations_of(scene, Evaluation::reference, {Purpose::mass_matrix}),
+                                 std::vector{0.4});
+  ASSERT_EQ(procedure.evaluate(Purpose::mass_matrix, {.psi = psi, .psid = {}}, M), Status::ok);
+  EXPECT_NEAR(M[0], expected[0], 1e-13 * expected[0]);
 }
 
 }  // namespace
