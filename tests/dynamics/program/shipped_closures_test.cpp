@@ -186,5 +186,36 @@ TEST(ShippedClosure, TakesNoMoreOperationsThanAsked) {
   }
 }
 
+// A tick in which the crank turns far is looked through in steps.
+TEST(ShippedClosure, IsNotSingularBecauseItTurnsFarInATick) {
+  for (const char* name : {"four_bar", "seven_bodies", "slider_crank_closed"}) {
+    const auto scene =
+        std::make_shared<const Scene>(load_scene(std::string(MIXLOOP_SCENES "/") + name + ".yaml"));
+    Equations::Workspace watched(equations_of(scene, Evaluation::interpreter, {}), {});
+    std::vector<double> psi = scene->home;
+    for (int k = 0; k < 20; ++k) {
+      psi[0] += 1.2;
+      ASSERT_EQ(watched.closures().accept(psi, 0), Status::ok) << name;
+      EXPECT_FALSE(watched.closures().watch().is_singular()) << name << " at " << psi[0];
+      EXPECT_LT(watched.closures().watch().residual, 1e-14) << name;
+    }
+  }
+}
+
+// Crank and ground as long as coupler and rocker: stretched where the crank points away, from where two ways
+// go on.
+TEST(ShippedClosure, DoesNotStepOverASingularPose) {
+  const NodePtr document =
+      override_entry(read_document(MIXLOOP_SCENES "/four_bar.yaml"), "constants.side", "0.4 m");
+  const auto scene = std::make_shared<const Scene>(load_scene(document));
+  Equations::Workspace watched(equations_of(scene, Evaluation::interpreter, {}), {});
+  for (const double psi : {1.5, 2.0, 2.5}) {
+    ASSERT_EQ(watched.closures().accept(std::vector{psi}, 0), Status::ok);
+    EXPECT_FALSE(watched.closures().watch().is_singular()) << psi;
+  }
+  ASSERT_EQ(watched.closures().accept(std::vector{3.8}, 0), Status::ok);
+  EXPECT_TRUE(watched.closures().watch().is_singular());
+}
+
 }  // namespace
 }  // namespace mixloop
