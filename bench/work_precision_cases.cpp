@@ -124,8 +124,8 @@ Case beside_closed(Case motion, const char* name, const char* title, const char*
 Case slider_crank() {
   Case motion = let_go("spatial_slider_crank.yaml", 0.01, 500, {6}, {0});
   motion.sample_every = 25;
-  motion.converged_steps[0] = 8;
-  motion.converged_steps[1] = 2;
+  motion.converged_steps[0] = 32;
+  motion.converged_steps[1] = 6;
   return beside_closed(std::move(motion), "slider_crank",
                        "the spatial slider-crank of IFToMM's family turns by itself for 5 s",
                        "slider_crank_closed.yaml");

@@ -54,7 +54,7 @@ void expect_same_dynamics(const char* file, const Linkage<Wide>& linkage, Linkag
     const Wide wide_psi[] = {Wide(psi[0])}, wide_psid[] = {Wide(rate)}, wide_tau[] = {Wide(torque)};
     const Wide procedure = forward_dynamics<Wide>(model, WideSpan(wide_psi), WideSpan(wide_psid),
                                                   WideSpan(wide_tau), Wide(0), ws)[0];
-    EXPECT_LT(abs(procedure - expected), Wide(1e-14) * size) << k;
+    EXPECT_LT(abs(procedure - expected), Wide(1e-13) * size) << k;
   }
 }
 

@@ -122,7 +122,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsInLanes) {
 // What a user builds into firmware, the solver of what takes corrections included.
 TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
   using Evaluate = void (*)(const double*, const double*, const double*, double, const double*, double*);
-  using SetUp = void (*)(const double*, double*);
+  using Prepare = void (*)(const double*, double*);
   using Solve = int (*)(const double*, double, const double*, double*);
   std::string complaint;
   const auto library = SharedObject::cached(
@@ -133,7 +133,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
     const int* size = static_cast<const int*>(library.symbol(prefix + "_constants"));
     EXPECT_NE(size, nullptr) << prefix;
     std::vector<double> k(static_cast<std::size_t>(*size) + 1);
-    reinterpret_cast<SetUp>(library.symbol(prefix + "_set_up"))(parameters.data(), k.data());
+    reinterpret_cast<Prepare>(library.symbol(prefix + "_set_up"))(parameters.data(), k.data());
     return k;
   };
   const auto solve = reinterpret_cast<Solve>(library.symbol("mixloop_solve"));
@@ -152,7 +152,9 @@ TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
     evaluator.set_up(parameters);
     std::vector<double> from = start(), one(program.outputs.size()), other(one), psidd(1);
     for (WalkedPose pose : walk(100)) {
-      if (solve) ASSERT_EQ(solve(pose.psi.data(), 0, of_closures.data(), from.data()), 0);
+      if (solve) {
+        ASSERT_EQ(solve(pose.psi.data(), 0, of_closures.data(), from.data()), 0);
+      }
       pose = started(purpose, pose, from);
       emitted(pose.psi.data(), pose.psid.data(), pose.input.data(), 0, k.data(), one.data());
       ASSERT_EQ(evaluator.evaluate(pose.arguments(), other), Status::ok);
@@ -184,6 +186,37 @@ TEST(ShippedClosure, TakesNoMoreOperationsThanAsked) {
     EXPECT_EQ(operations.sincos, 1U);
     EXPECT_EQ(operations.other, 0U);
   }
+}
+
+// A tick in which the crank turns far is looked through in steps.
+TEST(ShippedClosure, IsNotSingularBecauseItTurnsFarInATick) {
+  for (const char* name : {"four_bar", "seven_bodies", "slider_crank_closed"}) {
+    const auto scene =
+        std::make_shared<const Scene>(load_scene(std::string(MIXLOOP_SCENES "/") + name + ".yaml"));
+    Equations::Workspace watched(equations_of(scene, Evaluation::interpreter, {}), {});
+    std::vector<double> psi = scene->home;
+    for (int k = 0; k < 20; ++k) {
+      psi[0] += 1.2;
+      ASSERT_EQ(watched.closures().accept(psi, 0), Status::ok) << name;
+      EXPECT_FALSE(watched.closures().watch().is_singular()) << name << " at " << psi[0];
+      EXPECT_LT(watched.closures().watch().residual, 1e-14) << name;
+    }
+  }
+}
+
+// Crank and ground as long as coupler and rocker: stretched where the crank points away, from where two ways
+// go on.
+TEST(ShippedClosure, DoesNotStepOverASingularPose) {
+  const NodePtr document =
+      override_entry(read_document(MIXLOOP_SCENES "/four_bar.yaml"), "constants.side", "0.4 m");
+  const auto scene = std::make_shared<const Scene>(load_scene(document));
+  Equations::Workspace watched(equations_of(scene, Evaluation::interpreter, {}), {});
+  for (const double psi : {1.5, 2.0, 2.5}) {
+    ASSERT_EQ(watched.closures().accept(std::vector{psi}, 0), Status::ok);
+    EXPECT_FALSE(watched.closures().watch().is_singular()) << psi;
+  }
+  ASSERT_EQ(watched.closures().accept(std::vector{3.8}, 0), Status::ok);
+  EXPECT_TRUE(watched.closures().watch().is_singular());
 }
 
 }  // namespace
