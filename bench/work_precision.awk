@@ -4,6 +4,7 @@ function family(curve) {
   if (curve ~ /MuJoCo/) return (curve ~ /equality/) ? "MuJoCo" : "MuJoCo, projected by the user"
   if (curve ~ /Simbody/) return (curve ~ /couplers/) ? "Simbody" : "Simbody, projected by the user"
   if (curve ~ /textbook/) return "textbook"
+  if (curve ~ /^by closures/) return "by closures"
   return "mixloop"
 }
 /^# [^p]/ { machine = substr($0, 3) }
@@ -20,7 +21,7 @@ function family(curve) {
 }
 END {
   print "\n" machine ". CPU time of the whole motion, the least of up to seven runs.\n"
-  split("SUNDIALS|textbook|MuJoCo, projected by the user|MuJoCo|Simbody, projected by the user|Simbody", peers, "|")
+  split("by closures|SUNDIALS|textbook|MuJoCo, projected by the user|MuJoCo|Simbody, projected by the user|Simbody", peers, "|")
   for (p = 1; p <= count; ++p) {
     problem = problems[p]
     head = "| " problem ": error | mixloop | by"

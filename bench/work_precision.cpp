@@ -86,6 +86,12 @@ class Bench {
     std::printf("%s: %s\n", problem.name.c_str(), problem.title.c_str());
     converged_ = converged_samples(problem);
     for (const MethodFacts& method : all_methods()) own_curve(problem, method, Evaluation::machine_code);
+    if (problem.closed) {
+      Case told_by_closures = problem;
+      told_by_closures.experiment.scene = problem.closed;
+      for (const MethodFacts& method : all_methods())
+        own_curve(told_by_closures, method, Evaluation::machine_code, "by closures, ");
+    }
     for (const Method method : {Method::rk4, Method::dop853})
       for (const Evaluation how : {Evaluation::interpreter, Evaluation::reference})
         own_curve(problem, facts(method), how);
@@ -98,10 +104,10 @@ class Bench {
   }
 
  private:
-  void own_curve(const Case& problem, const MethodFacts& method, Evaluation how) {
+  void own_curve(const Case& problem, const MethodFacts& method, Evaluation how, const char* told = "") {
     if (method.jacobian && problem.drive == Case::Drive::continuous) return;
-    const std::string curve =
-        std::string(method.name) + (how == Evaluation::machine_code ? "" : ", " + std::string(name_of(how)));
+    const std::string curve = told + std::string(method.name) +
+                              (how == Evaluation::machine_code ? "" : ", " + std::string(name_of(how)));
     const bool slow = how == Evaluation::reference;
     for (int substeps = 1; substeps <= (slow ? 4 : method.order < 3 ? 128 : 32); substeps *= 2)
       own_point(problem, curve, {.integrator = method.method, .substeps = substeps}, how);

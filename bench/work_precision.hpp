@@ -22,7 +22,10 @@ struct Case {
   int ticks = 1000, sample_every = 20;
   bool papers_robot = true;                                    ///< the peers have a model of it
   std::function<void(int k, std::span<double> tau)> torque{};  ///< of tick k, where there is no controller
+  bool smooth = false;              ///< its torque never jumps: a solver may go on from tick to tick
   int converged_steps[2] = {2, 1};  ///< of DOP853 and Gauss of order 12 a tick, in 113 bits
+  bool by_multipliers = false;      ///< converged by the equations of tests/oracles, of all seven angles
+  std::shared_ptr<const Scene> closed{};  ///< the same mechanism, told by its closures
 
   int n() const { return experiment.scene->n(); }
   double tick() const { return 1 / experiment.rate_hz; }

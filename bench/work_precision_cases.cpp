@@ -55,6 +55,7 @@ Case free_swing() {
   const Vector start = make_plan(paper).at(0).psi;
   free.psi0.assign(start.begin(), start.end());
   free.psid0.assign(3, 0.0);
+  free.smooth = true;
   free.ticks = 300;
   free.sample_every = 10;
   free.converged_steps[0] = 32;
@@ -94,9 +95,61 @@ Case stiff() {
   stiff.ticks = 100;
   stiff.sample_every = 10;
   stiff.papers_robot = false;
+  stiff.smooth = true;
   stiff.converged_steps[0] = 64;
   stiff.converged_steps[1] = 32;
   return stiff;
+}
+
+/// A scene let go at home with these rates and torques, in pieces of `tick` s.
+Case let_go(const char* file, double tick, int ticks, std::vector<double> psid0, std::vector<double> tau) {
+  Case motion;
+  motion.experiment = of_scene(read_document(std::filesystem::path(MIXLOOP_SCENES) / file), 1 / tick);
+  motion.psi0 = motion.experiment.scene->home;
+  motion.psid0 = std::move(psid0);
+  motion.ticks = ticks;
+  motion.papers_robot = false;
+  motion.smooth = true;
+  motion.torque = [tau](int, std::span<double> out) { std::copy(tau.begin(), tau.end(), out.begin()); };
+  return motion;
+}
+
+Case beside_closed(Case motion, const char* name, const char* title, const char* closed) {
+  motion.name = name;
+  motion.title = title;
+  motion.closed = std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES) / closed));
+  return motion;
+}
+
+Case slider_crank() {
+  Case motion = let_go("spatial_slider_crank.yaml", 0.01, 500, {6}, {0});
+  motion.sample_every = 25;
+  motion.converged_steps[0] = 32;
+  motion.converged_steps[1] = 6;
+  return beside_closed(std::move(motion), "slider_crank",
+                       "the spatial slider-crank of IFToMM's family turns by itself for 5 s",
+                       "slider_crank_closed.yaml");
+}
+
+Case double_four_bar() {
+  Case motion = let_go("double_four_bar.yaml", 0.02, 500, {1}, {0});
+  motion.sample_every = 25;
+  motion.converged_steps[0] = 12;
+  motion.converged_steps[1] = 3;
+  return beside_closed(std::move(motion), "double_four_bar",
+                       "the double four-bar linkage (IFToMM A02) turns by itself for 10 s",
+                       "double_four_bar_closed.yaml");
+}
+
+Case seven_bodies() {
+  Case motion = let_go("seven_bodies.yaml", 0.005, 6, {0}, {0.033});
+  motion.name = "seven_bodies";
+  motion.title = "the seven-body mechanism of the IVP test set, 0.03 s in pieces of 5 ms";
+  motion.sample_every = 1;
+  motion.by_multipliers = true;
+  motion.converged_steps[0] = 1500;
+  motion.converged_steps[1] = 300;
+  return motion;
 }
 
 Case closed_loop(const char* file, const char* name, const char* title, Case::Drive drive) {
@@ -116,7 +169,12 @@ std::vector<Case> all_cases() {
                       Case::Drive::closed_loop),
           closed_loop("paper_continuous.yaml", "continuous", "the same, control evaluated continuously",
                       Case::Drive::continuous),
-          free_swing(), serial_arm(), stiff()};
+          free_swing(),
+          serial_arm(),
+          stiff(),
+          slider_crank(),
+          double_four_bar(),
+          seven_bodies()};
 }
 
 }  // namespace mixloop::bench

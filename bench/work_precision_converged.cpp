@@ -11,6 +11,7 @@
 #include "dynamics/procedure/procedure.hpp"
 #include "integrators/dop853.hpp"
 #include "integrators/gauss.hpp"
+#include "tests/oracles/known_linkages.hpp"
 #include "tests/oracles/wide.hpp"
 
 namespace mixloop::bench {
@@ -101,6 +102,39 @@ class WideLoop {
   std::unique_ptr<Plan> plan_;
 };
 
+/// The seven-body mechanism with all its angles, by Lagrange's equations with multipliers: its crank.
+class WideLinkage {
+ public:
+  explicit WideLinkage(const Case& problem) : case_(problem), linkage_(oracle::seven_bodies<Wide>()) {}
+
+  template <class Method>
+  WideSamples run(int steps) {
+    const int n = linkage_.angles;
+    Method method(n, 2 * n);
+    WideVector q = oracle::seven_bodies_start<Wide>(), torque = WideVector::Zero(n), x(2 * n);
+    oracle::close(linkage_, q);
+    x << q, WideVector::Zero(n);
+    torque[0] = oracle::decimal<Wide>("0.033");
+    const Wide h = Wide(1) / Wide(case_.experiment.rate_hz) / steps;
+    WideSamples samples;
+    for (int k = 0; k < case_.ticks; ++k) {
+      method.begin();
+      for (int step = 0; step < steps; ++step)
+        method.step(x, h, [&](int, const Wide&, const WideVector& at, WideVector& dx) {
+          dx.head(n) = at.tail(n);
+          dx.tail(n) = oracle::linkage_accelerations<Wide>(linkage_, at.head(n), at.tail(n), torque);
+        });
+      samples.push_back(WideVector(2));
+      samples.back() << x[0], x[n];
+    }
+    return samples;
+  }
+
+ private:
+  const Case& case_;
+  oracle::Linkage<Wide> linkage_;
+};
+
 std::string file_of(const Case& problem) {
   return std::string(MIXLOOP_CONVERGED) + "/" + problem.name + ".txt";
 }
@@ -120,11 +154,17 @@ double disagreement(const WideSamples& a, const WideSamples& b) {
   return static_cast<double>(worst);
 }
 
+template <class Loop>
+std::pair<WideSamples, WideSamples> by_two_methods(Loop loop, const int (&steps)[2]) {
+  return {loop.template run<Dop853<Wide>>(steps[0]), loop.template run<Gauss<Wide, 6>>(steps[1])};
+}
+
 }  // namespace
 
 void converge(const Case& problem) {
-  const auto dop853 = WideLoop(problem).run<Dop853<Wide>>(problem.converged_steps[0]);
-  const auto gauss = WideLoop(problem).run<Gauss<Wide, 6>>(problem.converged_steps[1]);
+  const auto [dop853, gauss] = problem.by_multipliers
+                                   ? by_two_methods(WideLinkage(problem), problem.converged_steps)
+                                   : by_two_methods(WideLoop(problem), problem.converged_steps);
   const double apart = disagreement(dop853, gauss);
   std::ofstream out(file_of(problem));
   out << "# " << problem.title << "\n# psi and psi' every " << problem.sample_every

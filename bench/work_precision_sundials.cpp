@@ -168,8 +168,7 @@ Samples run(const Case& problem, Plantlike& plant, Kind kind, double tolerance, 
   double* x = solver.state();
   std::copy(problem.psi0.begin(), problem.psi0.end(), x);
   std::copy(problem.psid0.begin(), problem.psid0.end(), x + plant.n);
-  const bool smooth =
-      problem.name == "free" || problem.name == "stiff" || problem.drive == Case::Drive::continuous;
+  const bool smooth = problem.smooth || problem.drive == Case::Drive::continuous;
   Samples samples;
   for (int k = 0; k < problem.ticks; ++k) {
     const double t = k * problem.tick();

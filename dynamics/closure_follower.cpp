@@ -151,21 +151,27 @@ Status ClosureFollower::step(std::span<const double> psi, double t) noexcept {
   return Status::ok;
 }
 
+// In steps, of which each starts from the one before: solutions stay on their branch, and no singular pose is
+// stepped over unseen.
 Status ClosureFollower::accept(std::span<const double> psi, double t) noexcept {
   const double way = way_to(psi, t);
   if (!std::isfinite(way)) return Status::not_finite;
-  moved_ = way;
   const int steps = 1 + static_cast<int>(std::min(way / kFarthest * 4, 1e5));
-  if (steps == 1 || sizes_.started == 0) return step(psi, t);
   const double* from = anchor_.data() + sizes_.start + sizes_.started * (sizes_.n + 1);
-  const std::vector<double> first(from, from + sizes_.n + 1);
-  for (int k = 1; k <= steps; ++k) {
-    const double part = static_cast<double>(k) / steps;
+  double condition = 1, nearest = 0;
+  for (int left = steps; left >= 1; --left) {
     for (std::size_t i = 0; i < sizes_.n; ++i)
-      psi_[i] = k < steps ? first[i] + (psi[i] - first[i]) * part : psi[i];
-    const Status status = step(psi_, k < steps ? first[sizes_.n] + (t - first[sizes_.n]) * part : t);
-    if (status != Status::ok) return status;
+      psi_[i] = left > 1 ? from[i] + (psi[i] - from[i]) / left : psi[i];
+    moved_ = way;
+    const double now = left > 1 ? from[sizes_.n] + (t - from[sizes_.n]) / left : t;
+    if (const Status status = step(psi_, now); status != Status::ok) return status;
+    if (sizes_.blocks == 0) continue;
+    const ClosureWatch here = watch();
+    condition = here.conditions[here.worst()];
+    const double share = condition * way / steps;
+    nearest = std::max(nearest, std::isfinite(share) ? share : HUGE_VAL);
   }
+  moved_ = nearest / condition;
   return Status::ok;
 }
 

@@ -178,12 +178,15 @@ IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Ve
   const EndEffectorState<double>* state = &forward(psi, zero_, zero_, t);
   Eigen::Vector3d error = on_axes(point - state->position);
   Eigen::Matrix3d J = jacobian_of(*state);
+  // Closures are followed all the way, and close no farther in a straight line than about a turn.
+  const double farthest = model_.scene->is_closed() ? 2 * kFarthestStart : HUGE_VAL;
   for (int i = 0; i < kMostIterations; ++i) {
     const Vector step = first_of(damped_step(J, error, damping, motor_scale_), n_u_);
     const Vector trial = psi + step;
     // Longer steps would wind the motors up.
     const double length = step.cwiseQuotient(motor_scale_).norm();
-    const bool sound = step.allFinite() && (length <= 0.5 || leads_straight(point, t, psi, step, error));
+    const bool sound = step.allFinite() &&
+                       (length <= 0.5 || (length <= farthest && leads_straight(point, t, psi, step, error)));
     const double distance = error.norm();
     // What Newton's method still has to go is quadratically small in the step (next to a singular pose a
     // small distance may take a long one): this step ends it.

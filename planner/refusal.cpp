@@ -86,7 +86,7 @@ void Refusal::no_way(Follower& follower, double step) const {
   for (int i = 0; i <= 256; ++i) {
     const double at = step + (static_cast<double>(itinerary_.lap_steps()) - step) * i / 256;
     const double excess = out_of_reach(at, follower.time(at), last);
-    if (excess <= most) continue;
+    if (!(excess > most)) continue;  // not finite where closures end on the way
     most = excess;
     farthest = at;
   }

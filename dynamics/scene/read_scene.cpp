@@ -47,19 +47,12 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   if (!node) return;
   std::vector<std::string> names;
   for (const auto& coordinate : scene.independent) names.push_back(coordinate.name);
-  // A motor that a transform names itself has a coordinate of its name.
-  const auto is_independent = [&](const std::string& name) {
-    const auto begin = names.begin(), end = begin + scene.n();
-    return std::find(begin, end, name) != end;
-  };
-  for (const auto& coordinate : scene.coordinates)
-    if (!is_independent(coordinate.name)) names.push_back(coordinate.name);
+  for (const auto& coordinate : scene.coordinates) names.push_back(coordinate.name);
   const Mapping entry(node, "home", names);
   const auto number = [&](const std::string& name, const Dimension& wanted) -> std::optional<double> {
     const NodePtr value = entry.find(name);
     if (!value) return std::nullopt;
-    const Formula psi =
-        draft.formula(*value, wanted, "the position of '" + name + "'", draft.fixed);
+    const Formula psi = draft.formula(*value, wanted, "the position of '" + name + "'", draft.fixed);
     if (!psi.is_constant())
       throw InputError("varying_number", value->place, "home depends on no parameter; expected a number");
     return psi.constant();
@@ -67,10 +60,14 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   for (std::size_t i = 0; i < scene.independent.size(); ++i)
     scene.home[i] =
         number(scene.independent[i].name, scene.independent[i].linear ? kLength : kPure).value_or(0);
+  const auto is_independent = [&](const std::string& name) {  // that transforms name themselves
+    return std::any_of(scene.independent.begin(), scene.independent.end(),
+                       [&](const auto& independent) { return independent.name == name; });
+  };
   for (auto& coordinate : scene.coordinates) {
     if (coordinate.is_solved())
       coordinate.home = number(coordinate.name, coordinate.constraint.dimension).value_or(0);
-    else if (const NodePtr value = entry.find(coordinate.name); value && !is_independent(coordinate.name))
+    else if (const NodePtr value = is_independent(coordinate.name) ? nullptr : entry.find(coordinate.name))
       throw InputError("guess_beside_formula", value->place,
                        "the coordinate '" + coordinate.name +
                            "' follows from its formula and takes no guess; expected motors, and coordinates "

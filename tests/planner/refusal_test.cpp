@@ -50,6 +50,14 @@ TEST(Refusal, OfAPathOutOfReachKnowsNoArm) {
                  {"the path's start", "1 m from the nearest"});
 }
 
+// The rocker's end of a four-bar linkage gets to x = 0.36 m, where crank and coupler fold. Closures end on
+// the way that a search takes beyond.
+TEST(Refusal, OfAPathOutOfAClosedMechanismsReachSaysHowFar) {
+  const auto model = model_of(load_scene(MIXLOOP_SCENES "/four_bar.yaml"));
+  expect_refusal(model, line("[0.85]", "[0.3]"), {}, "unreachable",
+                 {"at (0.36) m", "0.06 m from the nearest place that a search found"});
+}
+
 // Where all of the line can be reached, the follower's failure is no matter of reach.
 TEST(Refusal, OfAWayThatTheMotorsDontKnowToWhatCanBeReachedIsOfASingularity) {
   const auto model = model_from(kPlanarArm);

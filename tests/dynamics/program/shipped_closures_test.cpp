@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// Shipped scenes whose chains close: interpreter, machine code, lanes and the emitted C++ have the same bits,
+// for all purposes, on a walk through the pose space.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/equations.hpp"
+#include "dynamics/program/firmware.hpp"
+#include "dynamics/program/interpreter.hpp"
+#include "dynamics/program/lanes.hpp"
+#include "dynamics/program/shared_object.hpp"
+#include "dynamics/program/trace.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr auto kAllPurposes = {
+    Purpose::forward_dynamics,       Purpose::mass_times,   Purpose::mass_matrix, Purpose::bias,
+    Purpose::inverse_dynamics,       Purpose::end_effector, Purpose::energy,      Purpose::linearisation,
+    Purpose::dynamics_and_mass_times};
+
+struct WalkedPose {
+  std::vector<double> psi, psid, input;
+
+  Arguments arguments() const { return {psi, psid, input, 0}; }
+};
+
+class ShippedClosures : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    if (const std::string why = SharedObject::hindrance(); !why.empty()) GTEST_SKIP() << why;
+  }
+
+  /// Steps from home, each with inputs for all purposes.
+  std::vector<WalkedPose> walk(int count) const {
+    const auto n = static_cast<std::size_t>(scene->n());
+    std::vector<WalkedPose> poses;
+    for (int k = 1; k <= count; ++k) {
+      WalkedPose pose{scene->home, std::vector<double>(n), std::vector<double>(3 * n)};
+      for (std::size_t i = 0; i < n; ++i) {
+        pose.psi[i] += 0.013 * k * static_cast<double>(i + 1);
+        pose.psid[i] = 3 * std::sin(0.7 * k + static_cast<double>(i));
+      }
+      for (std::size_t i = 0; i < 3 * n; ++i) pose.input[i] = 2 * std::cos(0.9 * k + static_cast<double>(i));
+      poses.push_back(std::move(pose));
+    }
+    return poses;
+  }
+
+  /// The numbers of a start: home's.
+  std::vector<double> start() const {
+    std::vector<double> numbers;
+    for (int j : scene->started) {
+      const double home = scene->coordinates[static_cast<std::size_t>(j)].home;
+      numbers.push_back(home);
+      if (scene->turns(j)) numbers.push_back(std::cos(home)), numbers.push_back(std::sin(home));
+    }
+    return numbers;
+  }
+
+  /// A pose with the start behind what the purpose takes.
+  WalkedPose started(Purpose purpose, WalkedPose pose, const std::vector<double>& from) const {
+    pose.input.resize(static_cast<std::size_t>(signature(purpose).input_size(scene->n(), scene->n_u())));
+    pose.input.insert(pose.input.end(), from.begin(), from.end());
+    return pose;
+  }
+
+  std::shared_ptr<const Scene> scene =
+      std::make_shared<const Scene>(load_scene(std::string(MIXLOOP_SCENES "/") + GetParam() + ".yaml"));
+  std::vector<double> parameters = scene->default_parameters();
+};
+
+TEST_P(ShippedClosures, HaveTheSameBitsAsMachineCode) {
+  Equations::Workspace code(equations_of(scene, Evaluation::machine_code, kAllPurposes), parameters),
+      interpreted(equations_of(scene, Evaluation::interpreter, kAllPurposes), parameters);
+  ASSERT_EQ(code.equations().evaluation(), Evaluation::machine_code);
+  for (const WalkedPose& pose : walk(400))
+    for (Purpose purpose : kAllPurposes) {
+      auto one = code.outputs(purpose), other = one;
+      ASSERT_EQ(code.evaluate(purpose, pose.arguments(), one), Status::ok) << name_of(purpose);
+      ASSERT_EQ(interpreted.evaluate(purpose, pose.arguments(), other), Status::ok) << name_of(purpose);
+      ASSERT_EQ(one, other) << name_of(purpose) << " at " << pose.psi[0];
+    }
+}
+
+TEST_P(ShippedClosures, HaveTheSameBitsInLanes) {
+  for (Purpose purpose : {Purpose::forward_dynamics, Purpose::mass_times, Purpose::end_effector}) {
+    const Program program = trace(scene, purpose).program;
+    std::string complaint;
+    const auto lanes = LaneCode::load(
+        std::string("shipped ") + GetParam() + std::string(name_of(purpose)), [&] { return program; },
+        complaint);
+    ASSERT_TRUE(lanes) << complaint;
+    const std::vector<double> constants = lanes->constants(parameters);
+    const Interpreter interpreter(program);
+    Evaluator evaluator(interpreter);
+    evaluator.set_up(parameters);
+    const auto width = static_cast<std::size_t>(lanes->width());
+    std::vector<WalkedPose> poses = walk(static_cast<int>(width));
+    for (auto& pose : poses) pose = started(purpose, pose, start());
+    const auto abreast = [&](std::vector<double> WalkedPose::*part) {
+      std::vector<double> numbers;
+      for (std::size_t i = 0; i < (poses[0].*part).size(); ++i)
+        for (const auto& pose : poses) numbers.push_back((pose.*part)[i]);
+      return numbers;
+    };
+    const std::vector<double> psi = abreast(&WalkedPose::psi), psid = abreast(&WalkedPose::psid),
+                              input = abreast(&WalkedPose::input), t(width);
+    const std::size_t gives = program.outputs.size();
+    std::vector<double> out(gives * width), alone(gives);
+    lanes->run({psi, psid, input, t}, constants, out.data());
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      evaluator.evaluate(poses[lane].arguments(), alone);
+      for (std::size_t i = 0; i < gives; ++i)
+        ASSERT_EQ(out[i * width + lane], alone[i]) << name_of(purpose) << ", lane " << lane << ", " << i;
+    }
+  }
+}
+
+// What a user builds into firmware, the solver of what takes corrections included.
+TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
+  using Evaluate = void (*)(const double*, const double*, const double*, double, const double*, double*);
+  using SetUp = void (*)(const double*, double*);
+  using Solve = int (*)(const double*, double, const double*, double*);
+  std::string complaint;
+  const auto library = SharedObject::cached(
+      std::string("firmware of ") + scene->canonical,
+      [&] { return firmware_source(scene, kAllPurposes, Trigonometry::inlined); }, complaint);
+  ASSERT_TRUE(library) << complaint;
+  const auto constants = [&](const std::string& prefix) {
+    const int* size = static_cast<const int*>(library.symbol(prefix + "_constants"));
+    EXPECT_NE(size, nullptr) << prefix;
+    std::vector<double> k(static_cast<std::size_t>(*size) + 1);
+    reinterpret_cast<SetUp>(library.symbol(prefix + "_set_up"))(parameters.data(), k.data());
+    return k;
+  };
+  const auto solve = reinterpret_cast<Solve>(library.symbol("mixloop_solve"));
+  ASSERT_EQ(solve != nullptr, scene->corrections() > 0);
+  const std::vector<double> of_closures = solve ? constants("mixloop_closures") : std::vector<double>();
+  Equations::Workspace followed(equations_of(scene, Evaluation::interpreter, {Purpose::forward_dynamics}),
+                                parameters);
+  for (Purpose purpose : kAllPurposes) {
+    const std::string prefix = "mixloop_" + std::string(name_of(purpose));
+    const auto emitted = reinterpret_cast<Evaluate>(library.symbol(prefix));
+    ASSERT_NE(emitted, nullptr) << prefix;
+    const std::vector<double> k = constants(prefix);
+    const Program program = trace(scene, purpose).program;
+    const Interpreter interpreter(program);
+    Evaluator evaluator(interpreter);
+    evaluator.set_up(parameters);
+    std::vector<double> from = start(), one(program.outputs.size()), other(one), psidd(1);
+    for (WalkedPose pose : walk(100)) {
+      if (solve) ASSERT_EQ(solve(pose.psi.data(), 0, of_closures.data(), from.data()), 0);
+      pose = started(purpose, pose, from);
+      emitted(pose.psi.data(), pose.psid.data(), pose.input.data(), 0, k.data(), one.data());
+      ASSERT_EQ(evaluator.evaluate(pose.arguments(), other), Status::ok);
+      ASSERT_EQ(one, other) << prefix << " at " << pose.psi[0];
+      if (purpose != Purpose::forward_dynamics) continue;
+      ASSERT_EQ(followed.evaluate(purpose, pose.arguments(), psidd), Status::ok);
+      // Both solved to round-off, from other starts.
+      EXPECT_NEAR(one[0], psidd[0], 1e-12 * std::max(1.0, std::abs(psidd[0]))) << pose.psi[0];
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, ShippedClosures,
+                         testing::Values("four_bar", "slider_crank_closed", "double_four_bar_closed",
+                                         "seven_bodies"),
+                         [](const auto& row) { return std::string(row.param); });
+
+// What was asked for: at most 120 and 400 operations, no sine of a solved angle.
+TEST(ShippedClosure, TakesNoMoreOperationsThanAsked) {
+  const auto count = [](const char* name) {
+    const auto scene =
+        std::make_shared<const Scene>(load_scene(std::string(MIXLOOP_SCENES "/") + name + ".yaml"));
+    return trace(scene, Purpose::forward_dynamics).program.run_operations();
+  };
+  const auto four = count("four_bar"), seven = count("seven_bodies");
+  EXPECT_LE(four.flops(), 120U);
+  EXPECT_LE(seven.flops(), 400U);
+  for (const auto& operations : {four, seven}) {
+    EXPECT_EQ(operations.sincos, 1U);
+    EXPECT_EQ(operations.other, 0U);
+  }
+}
+
+// A tick in which the crank turns far is looked through in steps.
+TEST(ShippedClosure, IsNotSingularBecauseItTurnsFarInATick) {
+  for (const char* name : {"four_bar", "seven_bodies", "slider_crank_closed"}) {
+    const auto scene =
+        std::make_shared<const Scene>(load_scene(std::string(MIXLOOP_SCENES "/") + name + ".yaml"));
+    Equations::Workspace watched(equations_of(scene, Evaluation::interpreter, {}), {});
+    std::vector<double> psi = scene->home;
+    for (int k = 0; k < 20; ++k) {
+      psi[0] += 1.2;
+      ASSERT_EQ(watched.closures().accept(psi, 0), Status::ok) << name;
+      EXPECT_FALSE(watched.closures().watch().is_singular()) << name << " at " << psi[0];
+      EXPECT_LT(watched.closures().watch().residual, 1e-14) << name;
+    }
+  }
+}
+
+// Crank and ground as long as coupler and rocker: stretched where the crank points away, from where two ways
+// go on.
+TEST(ShippedClosure, DoesNotStepOverASingularPose) {
+  const NodePtr document =
+      override_entry(read_document(MIXLOOP_SCENES "/four_bar.yaml"), "constants.side", "0.4 m");
+  const auto scene = std::make_shared<const Scene>(load_scene(document));
+  Equations::Workspace watched(equations_of(scene, Evaluation::interpreter, {}), {});
+  for (const double psi : {1.5, 2.0, 2.5}) {
+    ASSERT_EQ(watched.closures().accept(std::vector{psi}, 0), Status::ok);
+    EXPECT_FALSE(watched.closures().watch().is_singular()) << psi;
+  }
+  ASSERT_EQ(watched.closures().accept(std::vector{3.8}, 0), Status::ok);
+  EXPECT_TRUE(watched.closures().watch().is_singular());
+}
+
+}  // namespace
+}  // namespace mixloop

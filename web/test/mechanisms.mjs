@@ -1,0 +1,31 @@
+// The pictures of shipped mechanisms in docs/figures: node mechanisms.mjs CHROMIUM MIXLOOP FOLDER WORK NAME=SECONDS=CAMERA...
+// Each experiment is simulated for so long and drawn by the view where it stands then, seen from space, front, side or top:
+// FOLDER/mechanism_NAME.png. WORK keeps the runs.
+import { execFileSync } from 'node:child_process';
+import path from 'node:path';
+import { opened, webgl } from './browser.mjs';
+import { endAll, ended, viewing } from './viewer.mjs';
+
+const [executable, mixloop, folder, work, ...wanted] = process.argv.slice(2);
+
+try {
+  for (const [name, seconds, camera] of wanted.map((word) => word.split('='))) {
+    const result = path.join(work, name);
+    execFileSync(mixloop, ['simulate', `experiments/${name}.yaml`, '--json', '--out', result,
+                           '--set', `duration=${seconds} s`, '--set', 'expect={}']);
+    const { child, url } = await viewing(mixloop, result, '--port', '0');
+    await opened(executable, async (_, tab, complaints) => {
+      await tab.setViewportSize({ width: 1180, height: 600 });
+      await tab.emulateMedia({ colorScheme: 'light' });
+      await tab.goto(url);
+      await tab.waitForFunction((end) => window.mixloop?.pose?.t >= end - 1e-9, Number(seconds));
+      await tab.click(`[data-camera=${camera}]`);
+      await tab.waitForTimeout(1500); // a frame or two, without a graphics card
+      await tab.locator('#canvas').screenshot({ path: path.join(folder, `mechanism_${name}.png`) });
+      complaints.length = 0;
+    }, webgl);
+    await ended({ child });
+  }
+} finally {
+  endAll();
+}
