@@ -47,13 +47,7 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   if (!node) return;
   std::vector<std::string> names;
   for (const auto& coordinate : scene.independent) names.push_back(coordinate.name);
-  // A motor that a transform names itself has a coordinate of its name.
-  const auto is_independent = [&](const std::string& name) {
-    const auto begin = names.begin(), end = begin + scene.n();
-    return std::find(begin, end, name) != end;
-  };
-  for (const auto& coordinate : scene.coordinates)
-    if (!is_independent(coordinate.name)) names.push_back(coordinate.name);
+  for (const auto& coordinate : scene.coordinates) names.push_back(coordinate.name);
   const Mapping entry(node, "home", names);
   const auto number = [&](const std::string& name, const Dimension& wanted) -> std::optional<double> {
     const NodePtr value = entry.find(name);

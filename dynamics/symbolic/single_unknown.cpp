@@ -76,6 +76,9 @@ class Single {
         const auto mine = vector.turned.find(unknown_);
         if (mine == vector.turned.end()) continue;
         if (std::abs(mine->second) != 1 || (all && *all != vector.turned)) return {{unknown_, 1}};
+        // What itself follows from the unknown is not known beside it.
+        for (const auto& [j, multiple] : vector.turned)
+          if (std::count(block_.within.begin(), block_.within.end(), j) > 0) return {{unknown_, 1}};
         all = vector.turned;
       }
     return all.value_or(WholeSum{{unknown_, 1}});
