@@ -60,6 +60,10 @@ void read_home(const Mapping& root, SceneDraft& draft) {
   for (std::size_t i = 0; i < scene.independent.size(); ++i)
     scene.home[i] =
         number(scene.independent[i].name, scene.independent[i].linear ? kLength : kPure).value_or(0);
+  const auto is_independent = [&](const std::string& name) {  // that transforms name themselves
+    return std::any_of(scene.independent.begin(), scene.independent.end(),
+                       [&](const auto& independent) { return independent.name == name; });
+  };
   for (auto& coordinate : scene.coordinates) {
     if (coordinate.is_solved())
       coordinate.home = number(coordinate.name, coordinate.constraint.dimension).value_or(0);
