@@ -68,7 +68,7 @@ struct Closed {
 
 std::ostream& operator<<(std::ostream& out, const Closed& closed) { return out << closed.name; }
 
-class ClosedPrograms : public testing::TestWithParam<Closed> {
+class ClosedPrograms : public ::testing::TestWithParam<Closed> {
  protected:
   struct Pose {
     std::vector<double> psi, psid, input;
@@ -201,7 +201,7 @@ TEST_P(ClosedPrograms, GoOnTheSameWayFromAnAnchorThatIsPutBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, ClosedPrograms,
-                         testing::Values(Closed{"FourBar", *new std::string(four_bar()), false},
+                         ::testing::Values(Closed{"FourBar", *new std::string(four_bar()), false},
                                          Closed{"Wound", kWound, false}, Closed{"Inclined", kInclined, false},
                                          Closed{"Inverted", kInverted, false},
                                          Closed{"Driven", kDriven, false},
