@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 
@@ -33,14 +34,17 @@ std::vector<double> narrowed(const Vec<Wide>& x) {
 }
 
 /// States on a walk through the pose space (each near the one before, so that all are on home's branch), and
-/// what psi'' is there.
+/// what psi'' is there. Where the motors can't turn round they go to and fro about home, by up to `reach`, and end where
+/// they began.
 struct Known {
   std::vector<ClosedState> states;
   std::vector<std::vector<double>> psidd;
 };
 
-Known known_states(const ScenePtr& scene) {
-  const auto model = make_model<Wide>(scene, WideSpan());
+Known known_states(const ScenePtr& scene, double reach = 0) {
+  std::vector<Wide> parameters;
+  for (double value : scene->default_parameters()) parameters.emplace_back(value);
+  const auto model = make_model<Wide>(scene, WideSpan(parameters));
   Workspace<Wide> ws(model);
   std::mt19937_64 random(20261127);
   std::uniform_real_distribution<double> step(0, 0.4), rate(-10, 10), torque(-5, 5);
@@ -50,7 +54,11 @@ Known known_states(const ScenePtr& scene) {
   state.psi = scene->home;
   for (int k = 0; k < kStates; ++k) {
     state.psid.assign(n, 0), state.tau.assign(static_cast<std::size_t>(scene->n_u()), 0);
-    for (double& x : state.psi) x += step(random);
+    for (std::size_t i = 0; i < n; ++i)
+      if (reach > 0)
+        state.psi[i] = scene->home[i] + reach * std::sin(2 * std::numbers::pi * k / kStates + static_cast<double>(2 * i));
+      else
+        state.psi[i] += step(random);
     for (double& x : state.psid) x = rate(random);
     for (double& x : state.tau) x = torque(random);
     const std::vector<Wide> psi(state.psi.begin(), state.psi.end()),
@@ -112,8 +120,8 @@ double median(std::vector<double> numbers) {
 }
 
 /// False where an engine misses its tolerance.
-bool compare(const char* title, const ScenePtr& scene, ClosedEngines engines, int repeats) {
-  const Known known = known_states(scene);
+bool compare(const char* title, const ScenePtr& scene, ClosedEngines engines, int repeats, double reach = 0) {
+  const Known known = known_states(scene, reach);
   engines.insert(engines.begin(),
                  {ours(scene, Evaluation::machine_code), ours(scene, Evaluation::interpreter)});
   std::vector<Row> rows;
@@ -163,6 +171,22 @@ int run(int repeats) {
     held &= compare("four-bar", scene, std::move(peers), repeats);
   }
   held &= compare("seven bodies", shipped("seven_bodies.yaml"), {}, repeats);
+  {
+    constexpr double kReach = 0.25;
+    const ScenePtr scene = shipped("planar_3rrr.yaml");
+    ClosedEngines peers;
+    add_mujoco_planar_3rrr(peers, known_states(scene, kReach).states.front());
+    add_simbody_planar_3rrr(peers);
+    held &= compare("planar 3-RRR", scene, std::move(peers), repeats, kReach);
+  }
+  {
+    constexpr double kReach = 0.3;
+    const ScenePtr scene = shipped("delta_robot.yaml");
+    ClosedEngines peers;
+    add_mujoco_delta_robot(peers, known_states(scene, kReach).states.front());
+    add_simbody_delta_robot(peers);
+    held &= compare("delta robot", scene, std::move(peers), repeats, kReach);
+  }
   std::printf(
       "Times: the least of all passes. Over machine code: median ratio to a pass of it just before. Errors: "
       "psi'' over\n"

@@ -29,6 +29,12 @@ struct FourBarHome {
   double crank, elbow, rocker;
 };
 
+/// A state near home, closed: what peers are put together at.
+void add_mujoco_planar_3rrr(ClosedEngines& engines, const ClosedState& home);
+void add_simbody_planar_3rrr(ClosedEngines& engines);
+void add_mujoco_delta_robot(ClosedEngines& engines, const ClosedState& home);
+void add_simbody_delta_robot(ClosedEngines& engines);
+
 void add_mujoco_four_bar(ClosedEngines& engines, const FourBarHome& home);
 void add_simbody_four_bar(ClosedEngines& engines);
 

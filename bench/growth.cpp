@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How forward dynamics grows with a mechanism: serial chains of revolute joints and chains of parallelograms.
+// How forward dynamics grows with a mechanism: serial chains of revolute joints, chains of
+// parallelograms, and of four-bar loops by their closures.
 // One line a size, tab-separated (bench/growth makes the table and the figure of it).
 #include <algorithm>
 #include <chrono>
@@ -33,13 +34,16 @@ struct State {
   std::vector<double> psi, psid, tau;
 };
 
-State seeded_state(int n) {
+/// Where chains close, at home.
+State seeded_state(const Scene& scene) {
+  const int n = scene.n();
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(-1, 1);
   State state;
   for (int i = 0; i < n; ++i) {
     state.psi.push_back(unit(random)), state.psid.push_back(unit(random)), state.tau.push_back(unit(random));
   }
+  if (scene.is_closed()) state.psi = scene.home;
   return state;
 }
 
@@ -47,7 +51,7 @@ State seeded_state(int n) {
 double evaluation_time(const Routine& routine, const ScenePtr& scene) {
   Evaluator evaluator(routine);
   evaluator.set_up({});
-  const State state = seeded_state(scene->n());
+  const State state = seeded_state(*scene);
   std::vector<double> out(state.psi.size());
   const auto pass = [&](int count) {
     return 1e9 / count * seconds([&] {
@@ -111,4 +115,5 @@ int main() {
       "interpreter_ns\treference_ns\n");
   bench::family("serial", {2, 3, 4, 6, 8, 10, 12, 16, 24, 32, 48, 64}, oracle::serial_chain);
   bench::family("parallelograms", {1, 2, 3, 4, 6, 8, 12, 16}, oracle::parallelogram_chain);
+  bench::family("four-bars", {1, 2, 3, 4, 6, 8, 12, 16, 24, 32}, oracle::four_bar_chain_of);
 }

@@ -32,6 +32,8 @@ std::string words_for(BlockSolution how) {
       return "in closed form, one coordinate by one row";
     case BlockSolution::dyad:
       return "in closed form, as two links between two known points";
+    case BlockSolution::distances:
+      return "in closed form, as a point at three distances";
     case BlockSolution::newton:
       break;
   }

@@ -18,6 +18,10 @@ SolvedBlock ClosedChains::solve_block(const Model<E>& model, int block, AlongOnG
     how_.push_back(BlockSolution::dyad);
     return std::move(*dyad);
   }
+  if (auto distances = solve_three_distances(model, block, along)) {
+    how_.push_back(BlockSolution::distances);
+    return std::move(*distances);
+  }
   how_.push_back(BlockSolution::newton);
   return solve_by_newton(model, block, along);
 }

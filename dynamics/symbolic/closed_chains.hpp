@@ -15,12 +15,13 @@ struct SolvedBlock;
 
 /// How a block of coordinates is solved in a program.
 enum class BlockSolution : std::uint8_t {
-  single,  ///< one coordinate by one row: by a square root at most
-  dyad,    ///< two links between known points or lines: by a square root
-  newton,  ///< corrections from a start
+  single,     ///< one coordinate by one row: by a square root at most
+  dyad,       ///< two links between known points or lines: by a square root
+  distances,  ///< a point at three distances: by a square root
+  newton,     ///< corrections from a start
 };
 constexpr std::string_view name_of(BlockSolution how) {
-  constexpr std::string_view kNames[] = {"closed form", "dyad", "Newton"};
+  constexpr std::string_view kNames[] = {"closed form", "dyad", "three distances", "Newton"};
   return kNames[static_cast<std::size_t>(how)];
 }
 

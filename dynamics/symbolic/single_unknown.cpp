@@ -4,38 +4,14 @@
 #include <cmath>
 
 #include "dynamics/symbolic/block_solver.hpp"
-#include "dynamics/symbolic/derivative.hpp"
+#include "dynamics/symbolic/stand_ins.hpp"
 
 namespace mixloop {
 namespace {
 
 using E = Expression;
-using Nodes = std::vector<NodeId>;
 
 bool is_zero(const E& x) { return x.is_number() && x.number() == 0.0; }
-
-/// Places in the graph that stand for what is not solved yet.
-E stand_in(int block, std::size_t index) {
-  return E::held(E::input(Block::start, kNoStart + 4 * static_cast<std::size_t>(block) + index), 0);
-}
-
-bool depends(const E& x, const E& on) {
-  if (x.is_number()) return false;
-  const Graph& graph = recording_graph();
-  return on.node() <= x.node() && needed(graph, Nodes{x.node()})[on.node()];
-}
-E slope(const E& x, const E& by) {
-  if (!depends(x, by)) return 0.0;
-  Graph& graph = recording_graph();
-  return E::of(tangents(graph, Nodes{x.node()}, Nodes{by.node()}, Nodes{graph.one()})[0]);
-}
-E without(const E& x, const std::vector<E>& parts) {
-  if (x.is_number()) return x;
-  Graph& graph = recording_graph();
-  Nodes nodes, zeros(parts.size(), graph.zero());
-  for (const E& part : parts) nodes.push_back(part.node());
-  return E::of(substituted(graph, Nodes{x.node()}, nodes, zeros)[0]);
-}
 
 /// Numbers but for their rounding, or one node.
 bool are_equal(const E& x, const E& y) {

@@ -28,7 +28,10 @@ TEST(ClosedMotion, HasTheSameBytesOnABadNetwork) {
   for (const Motion& motion :
        {Motion{"four_bar_turns", {"duration=0.5 s", "expect={}"}}, Motion{"four_bar_path", {"path.repeat=1"}},
         Motion{"slider_crank_closed", {"duration=0.5 s", "expect={}"}},
-        Motion{"double_four_bar_closed", {"duration=0.5 s", "expect={}"}}, Motion{"seven_bodies", {}}}) {
+        Motion{"double_four_bar_closed", {"duration=0.5 s", "expect={}"}}, Motion{"seven_bodies", {}},
+        Motion{"planar_3rrr_swing", {"duration=0.3 s", "expect={}"}}, Motion{"delta_circle", {}},
+        Motion{"spatial_five_bar_swing", {"duration=0.5 s", "expect={}"}},
+        Motion{"four_bar_chain_swing", {"duration=0.3 s", "expect={}"}}}) {
     SCOPED_TRACE(motion.name);
     const auto alone = result_of(motion, "simulate");
     const auto lossy = result_of(motion, "run", bad_network(++seed));

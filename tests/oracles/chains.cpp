@@ -74,4 +74,32 @@ std::string parallelogram_chain(int n) {
   return scene(motors, coordinates, constraints, transforms, bodies, base);
 }
 
+std::string four_bar_chain_of(int n) {
+  std::string coordinates, constraints = "  crank1: drive\n", transforms, closures, bodies, home;
+  double guess = 60;
+  const auto bar = [](const std::string& frame, const std::string& length, const std::string& mass) {
+    const std::string across = mass + " * " + length + "^2 / 12";
+    return "  - {frame: " + frame + ", mass: " + mass + ", center_of_mass: [-" + length +
+           "/2, 0, 0], inertia: {xx: 0, yy: " + across + ", zz: " + across + "}}\n";
+  };
+  for (int i = 1; i <= n; ++i) {
+    const std::string k = number(i), comma = i > 1 ? ", " : "";
+    coordinates += comma + "crank" + k + ", coupler" + k + ", rocker" + k;
+    if (i > 1) constraints += "  crank" + k + ": rocker" + number(i - 1) + "\n";
+    const std::string from = "  - {from: " + (i > 1 ? "pivot" + number(i - 1) : std::string("0")) + ", to: ";
+    transforms += from + "A" + k + ", theta: crank" + k + ", a: crank}\n";
+    transforms += "  - {from: A" + k + ", to: B" + k + ", theta: coupler" + k + ", a: coupler}\n";
+    transforms += from + "pivot" + k + ", a: ground}\n";
+    transforms += "  - {from: pivot" + k + ", to: C" + k + ", theta: rocker" + k + ", a: rocker}\n";
+    closures += "  - {coincide: [{frame: B" + k + "}, {frame: C" + k + "}], axes: [x, y]}\n";
+    bodies += bar("A" + k, "crank", "0.5 kg") + bar("B" + k, "coupler", "1 kg") + bar("C" + k, "rocker", "0.5 kg");
+    guess *= 0.95;  // so are the angles of these loops, about
+    home += ", coupler" + k + ": -" + std::to_string(guess) + " deg, rocker" + k + ": " + std::to_string(guess) + " deg";
+  }
+  return "constants: {ground: 1 m, crank: 0.5 m, coupler: 1.05 m, rocker: 0.55 m}\nmotors: [drive]\ncoordinates: [" +
+         coordinates + "]\nconstraints:\n" + constraints + "transforms:\n" + transforms + "closures:\n" + closures +
+         "bodies:\n" + bodies + "gravity: [0, -9.81, 0]\nend_effector: {frame: C" + number(n) +
+         ", axes: [x]}\nhome: {drive: 60 deg" + home + "}\n";
+}
+
 }  // namespace mixloop::oracle
