@@ -206,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(, ClosedPrograms,
                                          Closed{"Inverted", kInverted, false},
                                          Closed{"Driven", kDriven, false},
                                          Closed{"Spatial", kSpatialSliderCrank, true}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& of) { return std::string(of.param.name); });
 
 TEST(ClosedProgram, OfAFourBarTakesNoMoreThanByHand) {
   const auto count = trace(shared(four_bar()), Purpose::forward_dynamics).program.run_operations();
