@@ -10,11 +10,11 @@
 #include <random>
 #include <vector>
 
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/machine_code.hpp"
 #include "dynamics/program/reference.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shipped mechanisms whose chains close, against closed forms by vectors: what motion takes, where experiments end,
-// and what is planned through closures.
+// The shipped mechanisms whose chains close, against closed forms by vectors: what motion takes, where
+// experiments end, and what is planned through closures.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,8 +30,14 @@ struct ClosedLoop {
 
 const ClosedLoop& closed_loop(const std::string& name) {
   static const std::vector<ClosedLoop> all{
-      {"planar_3rrr", [](const auto& w) { return oracle::planar_3rrr(w); }, {0, -9.81, 0}, Eigen::Vector3d(0, 0, 0.17767)},
-      {"delta_robot", [](const auto& w) { return oracle::delta_robot(w); }, {0, 0, -9.81}, Eigen::Vector3d(0, 0, -0.39654)},
+      {"planar_3rrr",
+       [](const auto& w) { return oracle::planar_3rrr(w); },
+       {0, -9.81, 0},
+       Eigen::Vector3d(0, 0, 0.17767)},
+      {"delta_robot",
+       [](const auto& w) { return oracle::delta_robot(w); },
+       {0, 0, -9.81},
+       Eigen::Vector3d(0, 0, -0.39654)},
       {"spatial_five_bar", oracle::spatial_five_bar, {0, -9.81, 0}, Vec::Constant(1, -60 * kDegree)},
       {"four_bar_chain", oracle::four_bar_chain, {0, -9.81, 0}, Vec::Constant(1, 60 * kDegree)}};
   for (const ClosedLoop& loop : all)
@@ -45,7 +51,8 @@ std::shared_ptr<const Scene> scene_named(const std::string& name) {
 
 /// Angles within half a turn of others.
 Vec wound(Vec angles, const Vec& near) {
-  for (Eigen::Index i = 0; i < angles.size(); ++i) angles[i] = near[i] + std::remainder(angles[i] - near[i], 2 * std::numbers::pi);
+  for (Eigen::Index i = 0; i < angles.size(); ++i)
+    angles[i] = near[i] + std::remainder(angles[i] - near[i], 2 * std::numbers::pi);
   return angles;
 }
 
@@ -53,7 +60,9 @@ Vec vector_of(std::span<const double> x) {
   return Eigen::Map<const Vec>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-std::span<const double> span_of_vector(const Vec& x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
+std::span<const double> span_of_vector(const Vec& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
 
 /// w at these positions of the motors, by Newton's method from w.
 Vec placed(const VirtualWork& work, const Vec& psi, Vec w) {
@@ -88,12 +97,14 @@ TEST_P(ClosedLoops, TakeTheEffortsOfVirtualWorkWithVectors) {
       const auto motors = work.motors(w, wd, wdd);
       const Vec psi = wound(motors.psi, home), expected = work.inverse(w, wd, wdd);
       auto tau = programs.outputs(Purpose::inverse_dynamics), psidd = tau;
-      ASSERT_EQ(programs.evaluate(Purpose::inverse_dynamics,
-                                  {span_of_vector(psi), span_of_vector(motors.psid), span_of_vector(motors.psidd)}, tau),
+      ASSERT_EQ(programs.evaluate(
+                    Purpose::inverse_dynamics,
+                    {span_of_vector(psi), span_of_vector(motors.psid), span_of_vector(motors.psidd)}, tau),
                 Status::ok);
       EXPECT_LT((vector_of(tau) - expected).norm(), 1e-11 * (1 + expected.norm())) << trial;
-      ASSERT_EQ(programs.evaluate(Purpose::forward_dynamics,
-                                  {span_of_vector(psi), span_of_vector(motors.psid), span_of_vector(expected)}, psidd),
+      ASSERT_EQ(programs.evaluate(
+                    Purpose::forward_dynamics,
+                    {span_of_vector(psi), span_of_vector(motors.psid), span_of_vector(expected)}, psidd),
                 Status::ok);
       EXPECT_LT((vector_of(psidd) - motors.psidd).norm(), 1e-10 * (1 + motors.psidd.norm())) << trial;
     }
@@ -105,8 +116,7 @@ INSTANTIATE_TEST_SUITE_P(, ClosedLoops,
                          [](const auto& info) { return std::string(info.param); });
 
 Experiment experiment_named(const std::string& name) {
-  Experiment experiment =
-      load_experiment(std::filesystem::path(MIXLOOP_EXPERIMENTS) / (name + ".yaml"), {});
+  Experiment experiment = load_experiment(std::filesystem::path(MIXLOOP_EXPERIMENTS) / (name + ".yaml"), {});
   experiment.evaluation = Evaluation::interpreter;
   return experiment;
 }
@@ -124,7 +134,8 @@ Vec moved(const VirtualWork& work, Vec w, Vec psi, const Vec& psid, std::int64_t
   const Vec none = Vec::Zero(w.size());
   w = placed(work, psi, w);
   Eigen::MatrixXd slopes(psi.size(), w.size());
-  for (Eigen::Index k = 0; k < w.size(); ++k) slopes.col(k) = work.motors(w, Vec::Unit(w.size(), k), none).psid;
+  for (Eigen::Index k = 0; k < w.size(); ++k)
+    slopes.col(k) = work.motors(w, Vec::Unit(w.size(), k), none).psid;
   Vec wd = slopes.fullPivLu().solve(psid);
   const double h = 1e-3 / substeps;
   Vec tau;

@@ -72,7 +72,8 @@ inline std::array<Jet, 4> five_bar_turns(const Jet& crank, double alpha, double 
 
 /// scenes/spatial_five_bar.yaml; w = its crank's angle.
 inline Masses spatial_five_bar(const std::vector<Jet>& w) {
-  constexpr double degree = std::numbers::pi / 180, alpha = 60 * degree, beta = 20 * degree, gamma = 15 * degree;
+  constexpr double degree = std::numbers::pi / 180, alpha = 60 * degree, beta = 20 * degree,
+                   gamma = 15 * degree;
   const double a = 0.4, b = a * std::sin(beta) / std::sin(alpha), c = a * std::sin(gamma) / std::sin(alpha);
   const auto turns = five_bar_turns(w[0], alpha, beta, gamma);
   const std::array<double, 4> length{b + c, a, c, b}, twist{beta + gamma, alpha, gamma, beta},
@@ -86,7 +87,8 @@ inline Masses spatial_five_bar(const std::vector<Jet>& w) {
     const Jet3 y = axes[1] * cos(turns[k]) - axes[0] * sin(turns[k]), z = axes[2];
     const Jet3 middle = origin + x * (length[k] / 2);
     origin = origin + x * length[k];
-    axes = {x, y * std::cos(twist[k]) + z * std::sin(twist[k]), z * std::cos(twist[k]) - y * std::sin(twist[k])};
+    axes = {x, y * std::cos(twist[k]) + z * std::sin(twist[k]),
+            z * std::cos(twist[k]) - y * std::sin(twist[k])};
     const double across = mass[k] * length[k] * length[k] / 12;
     masses.add(mass[k], middle, axes, {0.0002, across, across});
   }

@@ -375,7 +375,8 @@ std::string ClosedMechanism::scene_text() const {
   text += "gravity: " + digits(gravity_) + "\nend_effector: {frame: " + frame_named(bodies_.back().frame) +
           ", point: [0.25, -0.5, 0.125]}\nhome: {";
   for (int i = 0; i < n(); ++i)
-    text += (i ? ", " : "") + numbered("psi", i) + ": \"" + digits(psi_home_[static_cast<std::size_t>(i)]) + "\"";
+    text +=
+        (i ? ", " : "") + numbered("psi", i) + ": \"" + digits(psi_home_[static_cast<std::size_t>(i)]) + "\"";
   for (const Guess& guess : guesses_)
     text += ", " + numbered("q", guess.coordinate) + ": \"" + digits(guess.value) + "\"";
   return text + "}\n";
@@ -390,8 +391,7 @@ std::string ClosedMechanism::closures_text() const {
     return "[" + end(closure, 0, key) + ", " + end(closure, 1, key) + "]";
   };
   const auto wave_of = [](const Closure& closure, const std::string& argument) {
-    return closure.wave == 0 ? ""
-                             : " + " + digits(closure.wave) + " * (1 m) * sin(" + argument + ")";
+    return closure.wave == 0 ? "" : " + " + digits(closure.wave) + " * (1 m) * sin(" + argument + ")";
   };
   for (const Closure& closure : closures_) switch (closure.kind) {
       case Kind::coincide: {
@@ -402,8 +402,8 @@ std::string ClosedMechanism::closures_text() const {
         break;
       }
       case Kind::distance: {
-        std::string length = digits(closure.constant) + " * (1 m)" +
-                             wave_of(closure, digits(closure.tempo) + " * t / (1 s)");
+        std::string length =
+            digits(closure.constant) + " * (1 m)" + wave_of(closure, digits(closure.tempo) + " * t / (1 s)");
         if (closure.along >= 0) {
           const bool slides = coordinates_[static_cast<std::size_t>(closure.along)].slides;
           length += " + " + digits(closure.slope) + " * " + numbered("q", closure.along) +
@@ -416,7 +416,8 @@ std::string ClosedMechanism::closures_text() const {
         text += "  - {parallel: " + both(closure, "axis") + "}\n";
         break;
       case Kind::align:
-        text += "  - {align: [" + frame_named(closure.frames[0]) + ", " + frame_named(closure.frames[1]) + "]}\n";
+        text +=
+            "  - {align: [" + frame_named(closure.frames[0]) + ", " + frame_named(closure.frames[1]) + "]}\n";
         break;
       case Kind::zero: {
         const bool slides = coordinates_[static_cast<std::size_t>(closure.along)].slides;

@@ -54,8 +54,8 @@ class ClosedMechanism {
   Tree<T> tree() const;
   /// All formulas, and those rows of the closures that don't follow from others; or all rows.
   template <class T>
-  EquationsBetween<T> equations(const VectorX<T>& q, const VectorX<T>& qd, const VectorX<T>& psi,
-                                const T& t, bool all = false) const;
+  EquationsBetween<T> equations(const VectorX<T>& q, const VectorX<T>& qd, const VectorX<T>& psi, const T& t,
+                                bool all = false) const;
   /// Newton's method from q, by all equations at once. False where it doesn't find an end.
   template <class T>
   bool close(VectorX<T>& q, const VectorX<T>& psi, const T& t) const;
@@ -194,9 +194,9 @@ template <class T>
 void ClosedMechanism::rows_of(const Closure& closure, const std::vector<FrameMotion<T>>& motions,
                               const VectorX<T>& q, const VectorX<T>& qd, const VectorX<T>& qdd, const T& t,
                               std::vector<Going<T>>& rows) const {
+  using closed_mechanism::point_of, closed_mechanism::vector_of;
   using std::cos;
   using std::sin;
-  using closed_mechanism::point_of, closed_mechanism::vector_of;
   const auto motion = [&](int frame) {
     return frame < 0 ? FrameMotion<T>{} : motions[static_cast<std::size_t>(frame)];
   };
@@ -246,8 +246,8 @@ void ClosedMechanism::rows_of(const Closure& closure, const std::vector<FrameMot
             std::abs(closure.vectors[0][static_cast<std::size_t>(least)]))
           least = k;
       const Vector3<T> across = axis.cross(unit(least)), other = axis.cross(across);
-      const auto second = vector_of(two, Vector3<T>(T(closure.vectors[1][0]), T(closure.vectors[1][1]),
-                                                    T(closure.vectors[1][2])));
+      const auto second = vector_of(
+          two, Vector3<T>(T(closure.vectors[1][0]), T(closure.vectors[1][1]), T(closure.vectors[1][2])));
       rows.push_back(dot(vector_of(one, across), second));
       rows.push_back(dot(vector_of(one, other), second));
       break;
@@ -321,8 +321,8 @@ EquationsBetween<T> ClosedMechanism::equations(const VectorX<T>& q, const Vector
   for (int j = 0; j < m(); ++j) {
     const auto along = all_rows<T>(q, VectorX<T>(VectorX<T>::Unit(m(), j)), none, t);
     for (std::size_t k = 0; k < chosen.size(); ++k)
-      e.G(at + static_cast<Eigen::Index>(k), j) = along[static_cast<std::size_t>(chosen[k])].rate -
-                                                  still[static_cast<std::size_t>(chosen[k])].rate;
+      e.G(at + static_cast<Eigen::Index>(k), j) =
+          along[static_cast<std::size_t>(chosen[k])].rate - still[static_cast<std::size_t>(chosen[k])].rate;
   }
   return e;
 }
@@ -347,7 +347,8 @@ bool ClosedMechanism::follow(VectorX<T>& q, const VectorX<T>& psi_from, const Ve
                              const T& t) const {
   constexpr int kSteps = 8;
   for (int k = 1; k <= kSteps; ++k)
-    if (!close<T>(q, VectorX<T>(psi_from + (psi - psi_from) * T(k) / T(kSteps)), T(t * k / kSteps))) return false;
+    if (!close<T>(q, VectorX<T>(psi_from + (psi - psi_from) * T(k) / T(kSteps)), T(t * k / kSteps)))
+      return false;
   return true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Dynamics by virtual work over point masses whose places are closed formulas of a few coordinates w: no joints, no
-// frames' derivatives, no closures. An oracle: sum m (p'' - g) . dp/dw_i = sum_k tau_k dpsi_k/dw_i.
+// Dynamics by virtual work over point masses whose places are closed formulas of a few coordinates w: no
+// joints, no frames' derivatives, no closures. An oracle: sum m (p'' - g) . dp/dw_i = sum_k tau_k
+// dpsi_k/dw_i.
 #pragma once
 
 #include <array>
@@ -62,9 +63,10 @@ struct Masses {
   std::vector<Point> points;
 
   void add(double mass, const Jet3& place) { points.push_back({mass, place}); }
-  /// A rigid body, by six points that have its mass, its centre and its moments of inertia about the centre: two
-  /// along each axis, at a distance r with m r^2 / 3 = (I_xx + I_yy + I_zz) / 2 - I_kk.
-  void add(double mass, const Jet3& centre, const std::array<Jet3, 3>& axes, const std::array<double, 3>& inertia) {
+  /// A rigid body, by six points that have its mass, its centre and its moments of inertia about the centre:
+  /// two along each axis, at a distance r with m r^2 / 3 = (I_xx + I_yy + I_zz) / 2 - I_kk.
+  void add(double mass, const Jet3& centre, const std::array<Jet3, 3>& axes,
+           const std::array<double, 3>& inertia) {
     const double half = (inertia[0] + inertia[1] + inertia[2]) / 2;
     for (std::size_t k = 0; k < 3; ++k) {
       const double r = std::sqrt(3 * std::max(half - inertia[k], 0.0) / mass);
@@ -87,7 +89,8 @@ class VirtualWork {
   using Matrix = Eigen::MatrixXd;
   using Placing = std::function<Masses(const std::vector<Jet>& w)>;
 
-  VirtualWork(Placing placing, std::array<double, 3> gravity) : placing_(std::move(placing)), gravity_(gravity) {}
+  VirtualWork(Placing placing, std::array<double, 3> gravity)
+      : placing_(std::move(placing)), gravity_(gravity) {}
 
   struct Motors {
     Vector psi, psid, psidd;

@@ -106,7 +106,8 @@ double in_wide(const SharedScene& scene, const ClosedMechanism& mechanism, const
   return std::max(worst, difference(forward_dynamics<Wide>(model, psi, psid, tau, t, ws), expected.psidd));
 }
 
-constexpr auto kAll = {Purpose::mass_matrix, Purpose::bias, Purpose::forward_dynamics, Purpose::linearisation};
+constexpr auto kAll = {Purpose::mass_matrix, Purpose::bias, Purpose::forward_dynamics,
+                       Purpose::linearisation};
 
 WideMatrix expected_of(Purpose purpose, const Expected& expected) {
   if (purpose == Purpose::mass_matrix) return expected.M;
