@@ -34,8 +34,8 @@ std::vector<double> narrowed(const Vec<Wide>& x) {
 }
 
 /// States on a walk through the pose space (each near the one before, so that all are on home's branch), and
-/// what psi'' is there. Where the motors can't turn round they go to and fro about home, by up to `reach`, and end where
-/// they began.
+/// what psi'' is there. Where the motors can't turn round they go to and fro about home, by up to `reach`,
+/// and end where they began.
 struct Known {
   std::vector<ClosedState> states;
   std::vector<std::vector<double>> psidd;
@@ -56,7 +56,8 @@ Known known_states(const ScenePtr& scene, double reach = 0) {
     state.psid.assign(n, 0), state.tau.assign(static_cast<std::size_t>(scene->n_u()), 0);
     for (std::size_t i = 0; i < n; ++i)
       if (reach > 0)
-        state.psi[i] = scene->home[i] + reach * std::sin(2 * std::numbers::pi * k / kStates + static_cast<double>(2 * i));
+        state.psi[i] = scene->home[i] +
+                       reach * std::sin(2 * std::numbers::pi * k / kStates + static_cast<double>(2 * i));
       else
         state.psi[i] += step(random);
     for (double& x : state.psid) x = rate(random);

@@ -49,7 +49,8 @@ class SimbodyPlanar3rrr : SimbodySystem {
       return Vec3(std::cos(at), std::sin(at), 0);
     };
     for (std::size_t k = 0; k < 3; ++k) {
-      cranks_[k] = MobilizedBody::Pin(matter.Ground(), Transform(0.5 * corner(k)), bar(2 * crank, crank), Transform());
+      cranks_[k] =
+          MobilizedBody::Pin(matter.Ground(), Transform(0.5 * corner(k)), bar(2 * crank, crank), Transform());
       rods_[k] = MobilizedBody::Pin(cranks_[k], Transform(Vec3(crank, 0, 0)), bar(2 * rod, rod), Transform());
     }
     platform_ = MobilizedBody::Pin(rods_[0], Transform(Vec3(rod, 0, 0)),
@@ -83,8 +84,8 @@ class SimbodyDelta : SimbodySystem {
  public:
   SimbodyDelta() : SimbodySystem(Vec3(0, 0, -9.81)) {
     constexpr double arm = 0.2, arm_mass = 0.3, half_rods = 0.06;
-    platform_ = MobilizedBody::Translation(matter.Ground(), Transform(),
-                                           Body::Rigid(MassProperties(0.88, Vec3(0), Inertia(1e-9))), Transform());
+    platform_ = MobilizedBody::Translation(
+        matter.Ground(), Transform(), Body::Rigid(MassProperties(0.88, Vec3(0), Inertia(1e-9))), Transform());
     const double centre = (arm_mass * arm / 2 + half_rods * arm) / (arm_mass + half_rods);
     const double about_hinge = arm_mass * arm * arm / 3 + half_rods * arm * arm;
     const Body::Rigid body(

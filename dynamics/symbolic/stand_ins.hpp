@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rows as polynomials in what is not solved yet: places in the graph that stand for it, by which rows are differentiated.
+// Rows as polynomials in what is not solved yet: places in the graph that stand for it, by which rows are
+// differentiated.
 #pragma once
 
 #include <vector>

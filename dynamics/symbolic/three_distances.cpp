@@ -45,7 +45,8 @@ std::optional<Sphere> sphere_of(const E& row, const std::vector<E>& x) {
 }  // namespace
 
 // The differences of the three are planes u . x = d, v . x = e, which meet in a line along w = u x v:
-//   x = (d (v x w) + e (w x u)) / w.w + s w,  and  w.w s = -b.w +- sqrt((b.w)^2 - w.w (|x0|^2 + 2 b.x0 + 2 c)),
+//   x = x0 + s w,  x0 = (d (v x w) + e (w x u)) / w.w,
+//   w.w s = -b.w +- sqrt((b.w)^2 - w.w (|x0|^2 + 2 b.x0 + 2 c)),
 // where the root is det(d rows / d x): zero at the singular pose, its sign that of home.
 std::optional<SolvedBlock> solve_three_distances(const Model<E>& model, int number, AlongOnGraph& along) {
   const Scene& scene = *model.scene;

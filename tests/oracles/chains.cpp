@@ -92,13 +92,16 @@ std::string four_bar_chain_of(int n) {
     transforms += from + "pivot" + k + ", a: ground}\n";
     transforms += "  - {from: pivot" + k + ", to: C" + k + ", theta: rocker" + k + ", a: rocker}\n";
     closures += "  - {coincide: [{frame: B" + k + "}, {frame: C" + k + "}], axes: [x, y]}\n";
-    bodies += bar("A" + k, "crank", "0.5 kg") + bar("B" + k, "coupler", "1 kg") + bar("C" + k, "rocker", "0.5 kg");
+    bodies +=
+        bar("A" + k, "crank", "0.5 kg") + bar("B" + k, "coupler", "1 kg") + bar("C" + k, "rocker", "0.5 kg");
     guess *= 0.95;  // so are the angles of these loops, about
-    home += ", coupler" + k + ": -" + std::to_string(guess) + " deg, rocker" + k + ": " + std::to_string(guess) + " deg";
+    home += ", coupler" + k + ": -" + std::to_string(guess) + " deg, rocker" + k + ": " +
+            std::to_string(guess) + " deg";
   }
-  return "constants: {ground: 1 m, crank: 0.5 m, coupler: 1.05 m, rocker: 0.55 m}\nmotors: [drive]\ncoordinates: [" +
-         coordinates + "]\nconstraints:\n" + constraints + "transforms:\n" + transforms + "closures:\n" + closures +
-         "bodies:\n" + bodies + "gravity: [0, -9.81, 0]\nend_effector: {frame: C" + number(n) +
+  return "constants: {ground: 1 m, crank: 0.5 m, coupler: 1.05 m, rocker: 0.55 m}\nmotors: "
+         "[drive]\ncoordinates: [" +
+         coordinates + "]\nconstraints:\n" + constraints + "transforms:\n" + transforms + "closures:\n" +
+         closures + "bodies:\n" + bodies + "gravity: [0, -9.81, 0]\nend_effector: {frame: C" + number(n) +
          ", axes: [x]}\nhome: {drive: 60 deg" + home + "}\n";
 }
 

@@ -17,8 +17,8 @@ std::string coiled_chain(int n, int motors = 1);
 /// and three dependent coordinates a stage, the constraints linear.
 std::string parallelogram_chain(int n);
 
-/// n four-bar loops in a row, each one's rocker the next one's crank, closed by closures: one motor, 3 n bodies and
-/// coordinates (scenes/four_bar_chain.yaml is the one of 4).
+/// n four-bar loops in a row, each one's rocker the next one's crank, closed by closures: one motor, 3 n
+/// bodies and coordinates (scenes/four_bar_chain.yaml is the one of 4).
 std::string four_bar_chain_of(int n);
 
 }  // namespace mixloop::oracle

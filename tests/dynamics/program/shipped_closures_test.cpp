@@ -29,7 +29,14 @@ struct WalkedPose {
   Arguments arguments() const { return {psi, psid, input, 0}; }
 };
 
-class ShippedClosures : public testing::TestWithParam<const char*> {
+struct Shipped {
+  const char* name;
+  double reach = 0;  ///< rad: how far its motors go to either side, where they can't turn round
+};
+
+void PrintTo(const Shipped& shipped, std::ostream* out) { *out << shipped.name; }
+
+class ShippedClosures : public testing::TestWithParam<Shipped> {
  protected:
   void SetUp() override {
     if (const std::string why = SharedObject::hindrance(); !why.empty()) GTEST_SKIP() << why;
@@ -42,7 +49,8 @@ class ShippedClosures : public testing::TestWithParam<const char*> {
     for (int k = 1; k <= count; ++k) {
       WalkedPose pose{scene->home, std::vector<double>(n), std::vector<double>(3 * n)};
       for (std::size_t i = 0; i < n; ++i) {
-        pose.psi[i] += 0.013 * k * static_cast<double>(i + 1);
+        const double along = 0.013 * k * static_cast<double>(i + 1), reach = GetParam().reach;
+        pose.psi[i] += reach > 0 ? reach * std::sin(along) : along;
         pose.psid[i] = 3 * std::sin(0.7 * k + static_cast<double>(i));
       }
       for (std::size_t i = 0; i < 3 * n; ++i) pose.input[i] = 2 * std::cos(0.9 * k + static_cast<double>(i));
@@ -70,7 +78,7 @@ class ShippedClosures : public testing::TestWithParam<const char*> {
   }
 
   std::shared_ptr<const Scene> scene =
-      std::make_shared<const Scene>(load_scene(std::string(MIXLOOP_SCENES "/") + GetParam() + ".yaml"));
+      std::make_shared<const Scene>(load_scene(std::string(MIXLOOP_SCENES "/") + GetParam().name + ".yaml"));
   std::vector<double> parameters = scene->default_parameters();
 };
 
@@ -92,7 +100,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsInLanes) {
     const Program program = trace(scene, purpose).program;
     std::string complaint;
     const auto lanes = LaneCode::load(
-        std::string("shipped ") + GetParam() + std::string(name_of(purpose)), [&] { return program; },
+        std::string("shipped ") + GetParam().name + std::string(name_of(purpose)), [&] { return program; },
         complaint);
     ASSERT_TRUE(lanes) << complaint;
     const std::vector<double> constants = lanes->constants(parameters);
@@ -152,7 +160,8 @@ TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
     const Interpreter interpreter(program);
     Evaluator evaluator(interpreter);
     evaluator.set_up(parameters);
-    std::vector<double> from = start(), one(program.outputs.size()), other(one), psidd(1);
+    std::vector<double> from = start(), one(program.outputs.size()), other(one),
+                        psidd(static_cast<std::size_t>(scene->n()));
     for (WalkedPose pose : walk(100)) {
       if (solve) {
         ASSERT_EQ(solve(pose.psi.data(), 0, of_closures.data(), from.data()), 0);
@@ -170,9 +179,11 @@ TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, ShippedClosures,
-                         testing::Values("four_bar", "slider_crank_closed", "double_four_bar_closed",
-                                         "seven_bodies"),
-                         [](const auto& row) { return std::string(row.param); });
+                         testing::Values(Shipped{"four_bar"}, Shipped{"slider_crank_closed"},
+                                         Shipped{"double_four_bar_closed"}, Shipped{"seven_bodies"},
+                                         Shipped{"planar_3rrr", 0.25}, Shipped{"delta_robot", 0.3},
+                                         Shipped{"spatial_five_bar", 0.5}, Shipped{"four_bar_chain", 0.5}),
+                         [](const auto& row) { return std::string(row.param.name); });
 
 // Rotations of rotations, as closures have them: where a compiler puts two of them into a vector, GCC 12
 // takes their products, sums and differences for fused ones.
