@@ -24,6 +24,7 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/polynomial.cpp
     symbolic/recursive.cpp
     symbolic/single_unknown.cpp
+    symbolic/three_distances.cpp
     symbolic/tracer.cpp
     program/short_chains.cpp
     program/program.cpp
