@@ -130,7 +130,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsInLanes) {
 // What a user builds into firmware, the solver of what takes corrections included.
 TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
   using Evaluate = void (*)(const double*, const double*, const double*, double, const double*, double*);
-  using SetUp = void (*)(const double*, double*);
+  using SetUpConstants = void (*)(const double*, double*);
   using Solve = int (*)(const double*, double, const double*, double*);
   std::string complaint;
   const auto library = SharedObject::cached(
@@ -141,7 +141,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
     const int* size = static_cast<const int*>(library.symbol(prefix + "_constants"));
     EXPECT_NE(size, nullptr) << prefix;
     std::vector<double> k(static_cast<std::size_t>(*size) + 1);
-    reinterpret_cast<SetUp>(library.symbol(prefix + "_set_up"))(parameters.data(), k.data());
+    reinterpret_cast<SetUpConstants>(library.symbol(prefix + "_set_up"))(parameters.data(), k.data());
     return k;
   };
   const auto solve = reinterpret_cast<Solve>(library.symbol("mixloop_solve"));
@@ -161,7 +161,9 @@ TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
     std::vector<double> from = start(), one(program.outputs.size()), other(one),
                         psidd(static_cast<std::size_t>(scene->n()));
     for (WalkedPose pose : walk(100)) {
-      if (solve) ASSERT_EQ(solve(pose.psi.data(), 0, of_closures.data(), from.data()), 0);
+      if (solve) {
+        ASSERT_EQ(solve(pose.psi.data(), 0, of_closures.data(), from.data()), 0);
+      }
       pose = started(purpose, pose, from);
       emitted(pose.psi.data(), pose.psid.data(), pose.input.data(), 0, k.data(), one.data());
       ASSERT_EQ(evaluator.evaluate(pose.arguments(), other), Status::ok);
