@@ -130,6 +130,20 @@ void Graph::set_pair(NodeId angle, NodeId cosine, NodeId sine) {
   partners_[cosine] = sine;
 }
 
+void Graph::forget_pairs_through(std::span<const NodeId> places) {
+  std::vector<bool> through(nodes_.size(), false);
+  for (const NodeId place : places) through[place] = true;
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    const ExpressionNode& n = nodes_[id];
+    if (n.op == Op::constant || n.op == Op::input) continue;
+    if (through[n.a] || (is_binary(n.op) && through[n.b])) through[id] = true;
+  }
+  const auto is_through = [&](NodeId sine, NodeId cosine) { return through[sine] || through[cosine]; };
+  std::erase_if(angles_, [&](const Angle& angle) { return is_through(angle.sine, angle.cosine); });
+  std::erase_if(pairs_,
+                [&](const auto& known) { return is_through(known.second.first, known.second.second); });
+}
+
 std::pair<NodeId, NodeId> Graph::sine_cosine(NodeId angle) {
   ++angles_seen_.asked;
   if (auto known = pairs_.find(angle); known != pairs_.end()) return known->second;

@@ -108,6 +108,10 @@ class Graph {
   /// Says what the cosine and sine of an angle are that has been held; they are held, too.
   void set_pair(NodeId angle, NodeId cosine, NodeId sine);
 
+  /// Forgets the pairs that have been worked out through these nodes: what stood for an unknown is no part of
+  /// other angles' sines later, though it would cancel.
+  void forget_pairs_through(std::span<const NodeId> places);
+
   /// Sine and cosine of a node, from a shared pair where there is one.
   std::pair<NodeId, NodeId> sine_cosine(NodeId angle);
 

@@ -70,7 +70,8 @@ class Single {
       alpha += multiple * scene_.coordinates[static_cast<std::size_t>(j)].home;
       if (j != unknown_) known += along_.along(j).v * E(multiple);
     }
-    const E angle = stand_in(number_, 0), c = stand_in(number_, 1), s = stand_in(number_, 2);
+    StandIns places(number_);
+    const E angle = places.next(), c = places.next(), s = places.next();
     recording_graph().set_pair(angle.node(), c.node(), s.node());
     const E row = row_where((angle - known) * E(sense));
     E A = slope(row, c), B = slope(row, s), C = without(row, {c, s});
@@ -80,6 +81,7 @@ class Single {
     A = without(A, {c, s}), B = without(B, {c, s}), C += E(0.5) * square;
     for (const E& part : {square, A, B, C})
       if (depends(part, angle) || depends(part, c) || depends(part, s)) return std::nullopt;
+    places.forget();
     Planar direction;
     const double side = home_.of(B) * std::cos(alpha) - home_.of(A) * std::sin(alpha);
     if (is_zero(A)) {
@@ -102,11 +104,13 @@ class Single {
 
   // C + B x + A x^2 = 0.
   std::optional<SolvedBlock> length() {
-    const E x = stand_in(number_, 0);
+    StandIns places(number_);
+    const E x = places.next();
     const E row = row_where(x);
     const E first = slope(row, x), second = slope(first, x);
     if (depends(second, x)) return std::nullopt;
     const E B = without(first, {x}), C = without(row, {x});
+    places.forget();
     E value;
     if (is_zero(second)) {
       value = -(C / B);

@@ -10,11 +10,28 @@
 
 namespace mixloop {
 
-/// A place that stands for something of a block, up to four of it.
-inline Expression stand_in(int block, std::size_t index) {
-  return Expression::held(
-      Expression::input(Block::start, kNoStart + 4 * static_cast<std::size_t>(block) + index), 0);
-}
+/// Places that stand for what is not solved yet, while rows are looked at: no angle's sine is made of theirs
+/// after that.
+class StandIns {
+ public:
+  explicit StandIns(int block) : block_(block) {}
+  StandIns(const StandIns&) = delete;
+  StandIns& operator=(const StandIns&) = delete;
+  ~StandIns() { forget(); }
+
+  /// One more, of up to four.
+  Expression next() {
+    const std::size_t index = kNoStart + 4 * static_cast<std::size_t>(block_) + places_.size();
+    const Expression place = Expression::held(Expression::input(Block::start, index), 0);
+    places_.push_back(place.node());
+    return place;
+  }
+  void forget() { recording_graph().forget_pairs_through(places_); }
+
+ private:
+  int block_;
+  std::vector<NodeId> places_;
+};
 
 inline bool depends(const Expression& x, const Expression& on) {
   if (x.is_number()) return false;

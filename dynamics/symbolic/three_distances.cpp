@@ -54,8 +54,9 @@ std::optional<SolvedBlock> solve_three_distances(const Model<E>& model, int numb
   if (block.unknowns.size() != 3 || !block.within.empty()) return std::nullopt;
   for (int j : block.unknowns)
     if (scene.turns(j)) return std::nullopt;
+  StandIns places(number);
   std::vector<E> x;
-  for (std::size_t k = 0; k < 3; ++k) along.x(block.unknowns[k]) = x.emplace_back(stand_in(number, k));
+  for (std::size_t k = 0; k < 3; ++k) along.x(block.unknowns[k]) = x.emplace_back(places.next());
   along.settle(block);
   std::vector<Sphere> spheres;
   for (const auto& row : along.rows_of(block)) {
@@ -63,6 +64,7 @@ std::optional<SolvedBlock> solve_three_distances(const Model<E>& model, int numb
     if (!sphere) return std::nullopt;
     spheres.push_back(std::move(*sphere));
   }
+  places.forget();
   const auto& [b, c] = spheres[0];
   const Triple u = less(spheres[1].b, b), v = less(spheres[2].b, b), w = crossed(u, v);
   const E d = c - spheres[1].c, e = c - spheres[2].c;

@@ -113,7 +113,7 @@ TEST_P(ClosedLoops, TakeTheEffortsOfVirtualWorkWithVectors) {
 
 INSTANTIATE_TEST_SUITE_P(, ClosedLoops,
                          testing::Values("planar_3rrr", "delta_robot", "spatial_five_bar", "four_bar_chain"),
-                         [](const auto& of) { return std::string(of.param); });
+                         [](const auto& row) { return std::string(row.param); });
 
 Experiment experiment_named(const std::string& name) {
   Experiment experiment = load_experiment(std::filesystem::path(MIXLOOP_EXPERIMENTS) / (name + ".yaml"), {});

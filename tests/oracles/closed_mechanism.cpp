@@ -219,7 +219,7 @@ bool ClosedMechanism::place(Closure& closure, Dice& dice) {
         return false;
       closure.factor = dice.either_sign(0.5, 2);
       closure.other_factor = dice.either_sign(0.5, 2);
-      if (dice.once_in(2)) closure.wave = dice.between(-0.25, 0.25);
+      if (!dice.once_in(4)) closure.wave = dice.between(-0.25, 0.25);
       closure.constant = closure.factor * q[closure.along] + closure.other_factor * q[closure.other] +
                          closure.wave * std::sin(q[closure.turning]);
       break;
@@ -249,9 +249,18 @@ bool ClosedMechanism::choose_solved(Dice& dice) {
     rank += sizes[i] >= 1e-3 * sizes[0] ? 1 : 0;
   }
   if (!(sizes[0] > 0) || rank >= m()) return false;
-  const Eigen::ColPivHouseholderQR<MatrixX<double>> by_rows(G.transpose());
-  for (int k = 0; k < rank; ++k) independent_.push_back(by_rows.colsPermutation().indices()[k]);
-  std::sort(independent_.begin(), independent_.end());
+  // The first that say something new, as the loader takes them: of those that follow from others the numbers
+  // are but doubles, so that they contradict in the last digits.
+  MatrixX<double> basis(m(), 0);
+  for (int i = 0; i < G.rows(); ++i) {
+    VectorX<double> rest = G.row(i).transpose();
+    for (int twice = 0; twice < 2; ++twice) rest -= basis * (basis.transpose() * rest).eval();
+    if (!(rest.norm() > 1e-9 * G.row(i).norm()) || !(G.row(i).norm() > 1e-10)) continue;
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.col(basis.cols() - 1) = rest.normalized();
+    independent_.push_back(i);
+  }
+  if (static_cast<int>(independent_.size()) != rank) return false;
   // What is driven in time would contradict a row that says the same.
   if (rank < G.rows())
     for (Closure& closure : closures_) closure.wave = closure.kind == Kind::distance ? 0 : closure.wave;

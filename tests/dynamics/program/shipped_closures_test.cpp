@@ -132,7 +132,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsInLanes) {
 // What a user builds into firmware, the solver of what takes corrections included.
 TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
   using Evaluate = void (*)(const double*, const double*, const double*, double, const double*, double*);
-  using Prepare = void (*)(const double*, double*);
+  using SetUpConstants = void (*)(const double*, double*);
   using Solve = int (*)(const double*, double, const double*, double*);
   std::string complaint;
   const auto library = SharedObject::cached(
@@ -143,7 +143,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
     const int* size = static_cast<const int*>(library.symbol(prefix + "_constants"));
     EXPECT_NE(size, nullptr) << prefix;
     std::vector<double> k(static_cast<std::size_t>(*size) + 1);
-    reinterpret_cast<Prepare>(library.symbol(prefix + "_set_up"))(parameters.data(), k.data());
+    reinterpret_cast<SetUpConstants>(library.symbol(prefix + "_set_up"))(parameters.data(), k.data());
     return k;
   };
   const auto solve = reinterpret_cast<Solve>(library.symbol("mixloop_solve"));
