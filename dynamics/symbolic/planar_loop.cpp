@@ -148,8 +148,8 @@ class Walk {
       const auto both = detail::across<E>(n, static_cast<int>(least));
       one = both[0];
     }
-    return {one, V3(n[1] * one[2] - n[2] * one[1], n[2] * one[0] - n[0] * one[2],
-                    n[0] * one[1] - n[1] * one[0])};
+    return {one,
+            V3(n[1] * one[2] - n[2] * one[1], n[2] * one[0] - n[0] * one[2], n[0] * one[1] - n[1] * one[0])};
   }
 
   const Model<E>& model_;
