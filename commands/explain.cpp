@@ -45,7 +45,7 @@ void print_table(const Explanation& explanation) {
     const auto text = [](const OperationCount& count) {
       return fmt::format("{} + {}", count.flops(), count.sincos);
     };
-    fmt::print("{:<26}{:>18}{:>18}{:>7.1f}x   {:<13}{}\n", name_of(quantity.purpose), text(quantity.literal),
+    fmt::print("{:<26}{:>18}{:>18} {:>6.1f}x   {:<13}{}\n", name_of(quantity.purpose), text(quantity.literal),
                text(quantity.run),
                static_cast<double>(quantity.literal.flops()) /
                    static_cast<double>(std::max<std::size_t>(1, quantity.run.flops())),
