@@ -200,13 +200,12 @@ TEST_P(ClosedPrograms, GoOnTheSameWayFromAnAnchorThatIsPutBack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, ClosedPrograms,
-                         ::testing::Values(Closed{"FourBar", *new std::string(four_bar()), false},
-                                         Closed{"Wound", kWound, false}, Closed{"Inclined", kInclined, false},
-                                         Closed{"Inverted", kInverted, false},
-                                         Closed{"Driven", kDriven, false},
-                                         Closed{"Spatial", kSpatialSliderCrank, true}),
-                         [](const auto& of) { return std::string(of.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    , ClosedPrograms,
+    ::testing::Values(Closed{"FourBar", *new std::string(four_bar()), false}, Closed{"Wound", kWound, false},
+                      Closed{"Inclined", kInclined, false}, Closed{"Inverted", kInverted, false},
+                      Closed{"Driven", kDriven, false}, Closed{"Spatial", kSpatialSliderCrank, true}),
+    [](const auto& of) { return std::string(of.param.name); });
 
 TEST(ClosedProgram, OfAFourBarTakesNoMoreThanByHand) {
   const auto count = trace(shared(four_bar()), Purpose::forward_dynamics).program.run_operations();
