@@ -16,7 +16,7 @@ mixloop::Plant plant_of(const mixloop::Experiment& experiment, const mixloop::Pl
 
 }  // namespace
 
-struct Plant::Content {
+struct [[gnu::visibility("hidden")]] Plant::Content {
   mixloop::Plant plant;
   std::vector<double> psi, psid;  ///< measured
 };

@@ -59,7 +59,9 @@ void certify(const std::shared_ptr<const Scene>& scene, const std::string& name,
 TEST(Certification, EveryShippedSceneIsAsExactAsTheProcedure) {
   for (const auto& entry : std::filesystem::directory_iterator(MIXLOOP_SCENES)) {
     if (entry.path().extension() != ".yaml") continue;
-    certify(std::make_shared<const Scene>(load_scene(entry.path())), entry.path().stem().string(), 10, 1);
+    const auto scene = std::make_shared<const Scene>(load_scene(entry.path()));
+    // Where chains close, samples far from home have no pose: closed_programs_test and shipped_closures_test.
+    if (!scene->is_closed()) certify(scene, entry.path().stem().string(), 10, 1);
   }
 }
 
