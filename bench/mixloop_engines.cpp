@@ -6,12 +6,12 @@
 #include <stdexcept>
 
 #include "bench/engine.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/program/lanes.hpp"
 #include "dynamics/program/shared_object.hpp"
 #include "dynamics/program/source.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 
 namespace mixloop::bench {

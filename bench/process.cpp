@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/machine.hpp"
-#include "dynamics/program/trace.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/program/trace.hpp"
 #include "loop/simulate.hpp"
 
 namespace mixloop::bench {

@@ -37,7 +37,7 @@ class Runner {
     } else {
       plant_ = std::make_unique<Plant>(
           Equations::Workspace(plant_equations(experiment.scene, how, settings), experiment.plant_parameters),
-          settings, experiment.rate_hz, problem.psi0);
+          settings, experiment.rate_hz, problem.psi0, problem.psid0);
     }
   }
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/program/firmware.hpp"
-#include "dynamics/assembly/load_scene.hpp"
 #include "loop/output_file.hpp"
 #include "loop/result.hpp"
 #include "notation/long_work.hpp"

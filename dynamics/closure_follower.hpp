@@ -15,14 +15,16 @@ namespace mixloop {
 struct ClosureWatch {
   double residual = 0;                   ///< the largest of all rows, m or rad
   std::span<const double> conditions{};  ///< of each block, 1 at best (trace_closures)
-  double moved = 0;                      ///< since the pose before, rad or of the scene's size
+  /// In a step on the way from the pose before, rad or of the scene's size: times the condition here it is
+  /// the largest of all steps' shares of the way to a singular pose.
+  double moved = 0;
 
   /// The block that is nearest to a singular pose.
   std::size_t worst() const {
     return static_cast<std::size_t>(std::max_element(conditions.begin(), conditions.end()) -
                                     conditions.begin());
   }
-  /// A singular pose lies within what the last step moved, or round-off.
+  /// A singular pose lies within what a step on the way here moved, or round-off.
   bool is_singular() const {
     const double condition = conditions.empty() ? 0 : conditions[worst()];
     return !(condition * std::max(moved, 1e-8) < 0.5);

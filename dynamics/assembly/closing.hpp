@@ -25,7 +25,7 @@ class Closing {
   double unit_of_unknown(int unknown) const { return unit_[static_cast<std::size_t>(unknown)]; }
   double unit_of_row(int row) const { return row_unit_[static_cast<std::size_t>(row)]; }
 
-  bool turns(int unknown) const;          ///< whether it is an angle
+  bool turns(int unknown) const;  ///< whether it is an angle
   bool is_length(int row) const { return row_is_length_[static_cast<std::size_t>(row)]; }
 
   Vector home_psi() const;

@@ -7,8 +7,8 @@ namespace mixloop {
 
 /// Where a search for a pose that closes ended.
 struct Settled {
-  bool closes = false;   ///< to round-off
-  double residual = 0;   ///< the largest, in the units of Closing
+  bool closes = false;  ///< to round-off
+  double residual = 0;  ///< the largest, in the units of Closing
   int iterations = 0;
 };
 

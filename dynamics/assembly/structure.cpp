@@ -110,8 +110,8 @@ class Incidence {
   int next_ = 0;
 };
 
-/// The slopes beside closed poses: there a row depends on all that it is made of, though a closed one may never
-/// show it (in a parallelogram one of the rows has no slope by the coupler's angle).
+/// The slopes beside closed poses: there a row depends on all that it is made of, though a closed one may
+/// never show it (in a parallelogram one of the rows has no slope by the coupler's angle).
 std::vector<Matrix> open_slopes(Closing& closing, const Vector& x) {
   Seeded seeded(5);
   std::vector<Matrix> slopes;
@@ -153,8 +153,8 @@ std::vector<ClosedPose> poses_about(Closing& closing, const Vector& x, int count
     const double reach = 0.4 / (1 << (tries / count));
     ClosedPose pose{x, closing.home_psi()};
     for (int i = 0; i < scene.n(); ++i)
-      pose.psi[i] += reach * seeded.draw() *
-                     (scene.independent[static_cast<std::size_t>(i)].linear ? scene.size : 1.0);
+      pose.psi[i] +=
+          reach * seeded.draw() * (scene.independent[static_cast<std::size_t>(i)].linear ? scene.size : 1.0);
     if (settle(closing, closing.whole(), pose.x, pose.psi).closes) poses.push_back(std::move(pose));
   }
   return poses;

@@ -18,8 +18,8 @@ struct ClosedPose {
   Vector x, psi;
 };
 
-/// Looks at the slopes where the mechanism is closed: at home, x, and at poses nearby, drawn by a seed. Throws
-/// InputError("underconstrained") or ("singular_home").
+/// Looks at the slopes where the mechanism is closed: at home, x, and at poses nearby, drawn by a seed.
+/// Throws InputError("underconstrained") or ("singular_home").
 Structure structure_of(Closing& closing, const Vector& x);
 
 /// Closed poses about home, by small moves of the motors; fewer where they close nowhere.

@@ -5,9 +5,10 @@
 
 namespace mixloop {
 
-/// A x = b of a few equations without pivots or branches, so that it can be recorded: by cofactors up to four,
-/// above by the modified Gram-Schmidt process, applied to b as to a further column, which is as stable as
-/// Householder's (Bjoerck, Numerical Methods for Least Squares Problems, 2.4). Not finite where A is singular.
+/// A x = b of a few equations without pivots or branches, so that it can be recorded: by cofactors up to
+/// four, above by the modified Gram-Schmidt process, applied to b as to a further column, which is as stable
+/// as Householder's (Bjoerck, Numerical Methods for Least Squares Problems, 2.4). Not finite where A is
+/// singular.
 template <class T>
 class SmallSystem {
  public:

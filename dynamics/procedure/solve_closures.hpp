@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "dynamics/procedure/coordinates_along.hpp"
 
@@ -103,6 +104,24 @@ class ClosureSearch {
   Vec<T> psi_;
 };
 
+/// Brings the anchor, which is home for the scene's defaults, to the model's parameters, in steps.
+template <class T>
+void reach_parameters(const Model<T>& model, Workspace<T>& ws) {
+  const std::vector<double> defaults = model.scene->default_parameters();
+  std::vector<T> between(model.parameters);
+  bool same = true;
+  for (std::size_t i = 0; i < defaults.size(); ++i)
+    same = same && !(between[i] < T(defaults[i])) && !(between[i] > T(defaults[i]));
+  const Vec<T> home = ws.anchor_psi;
+  constexpr int kSteps = 16;
+  for (int k = 1; k < kSteps && !same; ++k) {
+    for (std::size_t i = 0; i < defaults.size(); ++i)
+      between[i] = T(defaults[i]) + (model.parameters[i] - T(defaults[i])) * T(k) / T(kSteps);
+    const Model<T> now = make_model<T>(model.scene, std::span<const T>(between));
+    if (!ClosureSearch<T>(now, ws).reach(span_of(home), T(0))) return;
+  }
+}
+
 }  // namespace detail
 
 /// The solved coordinates at a pose, into ws.x, and their rows' slopes into ws.systems; on the branch of the
@@ -110,10 +129,13 @@ class ClosureSearch {
 template <class T>
 void solve_closures(const Model<T>& model, std::span<const T> psi, const T& t, Workspace<T>& ws) {
   if (ws.solve) return ws.solve(model, psi, t, ws);
-  if constexpr (std::numeric_limits<T>::is_specialized)
+  if constexpr (std::numeric_limits<T>::is_specialized) {
+    if (!ws.is_anchored) detail::reach_parameters(model, ws);
+    ws.is_anchored = true;
     ws.is_solved = detail::ClosureSearch<T>(model, ws).reach(psi, t);
-  else
+  } else {
     throw std::logic_error("closures on a scalar that nothing solves them for");
+  }
 }
 
 }  // namespace mixloop

@@ -66,8 +66,7 @@ struct Workspace {
     end_effector.jacobian.resize(3, model.n());
     for (int j = 0; j < model.m(); ++j) x[j] = T(model.scene->coordinates[static_cast<std::size_t>(j)].home);
     anchor_x = x;
-    for (int i = 0; i < model.n(); ++i)
-      anchor_psi[i] = T(model.scene->home[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < model.n(); ++i) anchor_psi[i] = T(model.scene->home[static_cast<std::size_t>(i)]);
   }
 
   /// Of one frame: (6), (8), its rate, and the velocity products of (12).
@@ -85,6 +84,8 @@ struct Workspace {
   Vec<T> x;                      ///< m: of the solved coordinates, at the pose in hand
   Vec<T> anchor_x, anchor_psi;   ///< m, n: the last solution, from which the next is searched
   T anchor_t{0};
+  bool is_anchored =
+      false;              ///< the anchor holds for the model's parameters, not for the scene's defaults alone
   bool is_solved = true;  ///< whether the closures hold at the pose in hand; x is not finite where they don't
   /// Solves the closures in another way than by Newton's method on numbers.
   std::function<void(const Model<T>&, std::span<const T> psi, const T& t, Workspace&)> solve = nullptr;

@@ -93,9 +93,11 @@ std::optional<Compiler> find_compiler() {
 }
 
 const std::vector<std::string>& machine_code_flags() {
-  static const std::vector<std::string> flags = {
-      "-std=c++17",      "-O2",      "-march=native", "-ffp-contract=off",
-      "-fno-math-errno", "-fno-plt", "-fPIC",         "-shared"};
+  static const std::vector<std::string> flags = {"-std=c++17", "-O2", "-march=native", "-ffp-contract=off",
+                                                 "-fno-math-errno", "-fno-plt", "-fPIC", "-shared",
+                                                 // GCC 12 fuses the sums and differences of products that it
+                                                 // has put into one vector, in spite of contract=off.
+                                                 "-fno-tree-slp-vectorize"};
   return flags;
 }
 

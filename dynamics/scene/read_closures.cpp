@@ -24,10 +24,9 @@ const Keys& point_keys() {
 }
 
 const Keys& axis_keys() {
-  static const Keys keys{
-      "a closure's axis",
-      {{"frame", form::text(), kRequired},
-       {"axis", form::one_of({form::word({"x", "y", "z"}), form::numbers()}), kRequired}}};
+  static const Keys keys{"a closure's axis",
+                         {{"frame", form::text(), kRequired},
+                          {"axis", form::one_of({form::word({"x", "y", "z"}), form::numbers()}), kRequired}}};
   return keys;
 }
 
@@ -54,10 +53,10 @@ Kind kind_of(const Node& item) {
   for (std::size_t i = 0; i < Scene::Closure::kKinds.size(); ++i) {
     if (!find_entry(item, Scene::Closure::kKinds[i])) continue;
     if (found)
-      throw InputError("wrong_kind", item.place,
-                       fmt::format("a closure that says both {} and {}; expected one of them",
-                                   Scene::Closure::kKinds[static_cast<std::size_t>(*found)],
-                                   Scene::Closure::kKinds[i]));
+      throw InputError(
+          "wrong_kind", item.place,
+          fmt::format("a closure that says both {} and {}; expected one of them",
+                      Scene::Closure::kKinds[static_cast<std::size_t>(*found)], Scene::Closure::kKinds[i]));
     found = static_cast<Kind>(i);
   }
   if (!found)

@@ -49,7 +49,8 @@ std::optional<SolvedBlock> solve_dyad(const Model<Expression>& model, int block,
 std::optional<SolvedBlock> solve_single(const Model<Expression>& model, int block, AlongOnGraph& along);
 
 /// Three lengths along axes at right angles, by three distances: nothing where the block is none.
-std::optional<SolvedBlock> solve_three_distances(const Model<Expression>& model, int block, AlongOnGraph& along);
+std::optional<SolvedBlock> solve_three_distances(const Model<Expression>& model, int block,
+                                                 AlongOnGraph& along);
 
 /// Any block, by corrections from its start.
 SolvedBlock solve_by_newton(const Model<Expression>& model, int block, AlongOnGraph& along);

@@ -73,7 +73,8 @@ class Dyad {
     std::vector<Sorted> sorted;
     for (const LoopVector& vector : loop.vectors) {
       Sorted part{{}, {}, vector.is, false};
-      for (const auto& [j, multiple] : vector.turned) (is_unknown(j) ? part.unknown : part.known)[j] = multiple;
+      for (const auto& [j, multiple] : vector.turned)
+        (is_unknown(j) ? part.unknown : part.known)[j] = multiple;
       if (vector.length >= 0) {
         part.slides = is_unknown(vector.length);
         if (!part.slides) part.is = part.is * along_.along(vector.length).v;
@@ -144,8 +145,8 @@ class Dyad {
     const double angle = home_of(turning[0]->unknown) + home_of(turning[0]->known);
     const std::complex<double> turned = at_home(u) * std::polar(1.0, angle), to = at_home(d);
     const Planar p{D + (U - V), height * sign((std::conj(to) * turned).imag())};
-    const Planar first = is_zero(u.y) ? p * d * (E(0.5) / (D * u.x))
-                                      : p * d * (u.conjugate() * (E(0.5) / (D * U)));
+    const Planar first =
+        is_zero(u.y) ? p * d * (E(0.5) / (D * u.x)) : p * d * (u.conjugate() * (E(0.5) / (D * U)));
     const Planar second = over(d - u * first, v, V);
     SolvedBlock solved;
     solved.angles = {held(*turning[0], first, 0), held(*turning[1], second, 1)};

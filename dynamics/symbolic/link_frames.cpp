@@ -19,7 +19,8 @@ M3 parallel_axis(const V3& r, const V3& moment) {
 }
 
 LinkFrames::LinkFrames(const std::shared_ptr<const Scene>& scene)
-    : in_(*scene), model_(make_model<E>(scene, std::span<const E>(in_.parameters))),
+    : in_(*scene),
+      model_(make_model<E>(scene, std::span<const E>(in_.parameters))),
       workspace_(model_),
       chains_(std::make_shared<ClosedChains>(in_)) {
   workspace_.solve = [chains = chains_](const auto& model, auto, const auto&, auto& ws) {

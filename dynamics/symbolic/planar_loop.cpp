@@ -110,8 +110,9 @@ class Walk {
       int& multiple = turned_[link.coordinate];
       multiple += *sense * static_cast<int>(link.scale.number());
       if (multiple == 0) turned_.erase(link.coordinate);
-      using std::cos, std::sin;
-      R_ = turned_about_z(R_, cos(link.theta), sin(link.theta));
+      E c = cos(link.theta), s = sin(link.theta);
+      if (link.theta.is_number()) detail::constant_cos_sin(link.theta.number(), c, s);
+      R_ = turned_about_z(R_, c, s);
     } else {
       R_ = turned_about_z(R_, link.cos_theta, link.sin_theta);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene file; where it loads, its procedure is evaluated once.
-#include "dynamics/procedure/procedure.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/procedure/procedure.hpp"
 #include "tests/fuzz/check.hpp"
 
 namespace {

@@ -2,8 +2,8 @@
 // Mechanisms whose motion two independent derivations agree on, by every method, without a torque.
 #include <gtest/gtest.h>
 
-#include "dynamics/equations.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/equations.hpp"
 #include "integrators/integrator.hpp"
 
 namespace mixloop {

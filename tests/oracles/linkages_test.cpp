@@ -58,8 +58,8 @@ void expect_same_dynamics(const char* file, const Linkage<Wide>& linkage, Linkag
   }
 }
 
-// The scene's numbers are doubles, the linkage's decimal: 1e-16 each, in 113 bits too. Beside it what an evaluation in
-// doubles adds.
+// The scene's numbers are doubles, the linkage's decimal: 1e-16 each, in 113 bits too. Beside it what an
+// evaluation in doubles adds.
 TEST(SevenBodies, MoveAsByMultipliersAtEachPoseOfATurn) {
   expect_same_dynamics("seven_bodies.yaml", seven_bodies<Wide>(), seven_bodies_start<Wide>(), 0.157, 400,
                        0.033, 1e-12);

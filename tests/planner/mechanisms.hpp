@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "dynamics/procedure/procedure.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/procedure/procedure.hpp"
 #include "planner/path.hpp"
 
 namespace mixloop {

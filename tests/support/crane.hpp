@@ -8,8 +8,8 @@
 
 #include <memory>
 
-#include "dynamics/scene/canonical.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/scene/canonical.hpp"
 
 namespace mixloop {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "dynamics/procedure/kinematics.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/procedure/kinematics.hpp"
 #include "view/source.hpp"
 
 namespace mixloop {

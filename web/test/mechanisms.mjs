@@ -21,9 +21,10 @@ try {
       await tab.setViewportSize({ width: 1180, height: 600 });
       await tab.emulateMedia({ colorScheme: 'light' });
       await tab.goto(url);
-      await tab.waitForFunction((end) => window.mixloop?.pose?.t >= end - 1e-9, Number(seconds));
+      await tab.waitForFunction(() => window.mixloop?.pose);
+      await tab.locator('#scrub').press('End');
       await tab.click(`[data-camera=${camera}]`);
-      await tab.waitForTimeout(1500); // a frame or two, without a graphics card
+      await tab.waitForTimeout(2000); // a frame or two, without a graphics card
       await tab.locator('#canvas').screenshot({ path: path.join(folder, `mechanism_${name}.png`) });
       complaints.length = 0;
     }, webgl);

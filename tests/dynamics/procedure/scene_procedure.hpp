@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/procedure/procedure.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/procedure/procedure.hpp"
 #include "tests/oracles/multipliers.hpp"
 
 namespace mixloop {

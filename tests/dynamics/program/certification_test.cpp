@@ -8,10 +8,10 @@
 
 #include <filesystem>
 
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/reference.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 #include "tests/oracles/random_mechanism.hpp"

@@ -68,7 +68,7 @@ struct Closed {
 
 std::ostream& operator<<(std::ostream& out, const Closed& closed) { return out << closed.name; }
 
-class ClosedPrograms : public testing::TestWithParam<Closed> {
+class ClosedPrograms : public ::testing::TestWithParam<Closed> {
  protected:
   struct Pose {
     std::vector<double> psi, psid, input;
@@ -200,13 +200,12 @@ TEST_P(ClosedPrograms, GoOnTheSameWayFromAnAnchorThatIsPutBack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, ClosedPrograms,
-                         testing::Values(Closed{"FourBar", *new std::string(four_bar()), false},
-                                         Closed{"Wound", kWound, false}, Closed{"Inclined", kInclined, false},
-                                         Closed{"Inverted", kInverted, false},
-                                         Closed{"Driven", kDriven, false},
-                                         Closed{"Spatial", kSpatialSliderCrank, true}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    , ClosedPrograms,
+    ::testing::Values(Closed{"FourBar", *new std::string(four_bar()), false}, Closed{"Wound", kWound, false},
+                      Closed{"Inclined", kInclined, false}, Closed{"Inverted", kInverted, false},
+                      Closed{"Driven", kDriven, false}, Closed{"Spatial", kSpatialSliderCrank, true}),
+    [](const auto& of) { return std::string(of.param.name); });
 
 TEST(ClosedProgram, OfAFourBarTakesNoMoreThanByHand) {
   const auto count = trace(shared(four_bar()), Purpose::forward_dynamics).program.run_operations();
@@ -305,6 +304,10 @@ TEST(ClosedProgram, ReachesParametersFromTheDefaults) {
   ASSERT_EQ(far.evaluate(Purpose::mass_matrix, {.psi = psi, .psid = {}}, M), Status::ok);
   ASSERT_EQ(near.evaluate(Purpose::mass_matrix, {.psi = psi, .psid = {}}, expected), Status::ok);
   EXPECT_NEAR(M[0], expected[0], 1e-14 * expected[0]);
+  Equations::Workspace procedure(equations_of(scene, Evaluation::reference, {Purpose::mass_matrix}),
+                                 std::vector{0.4});
+  ASSERT_EQ(procedure.evaluate(Purpose::mass_matrix, {.psi = psi, .psid = {}}, M), Status::ok);
+  EXPECT_NEAR(M[0], expected[0], 1e-13 * expected[0]);
 }
 
 }  // namespace

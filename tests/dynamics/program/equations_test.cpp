@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "certification.hpp"
-#include "dynamics/scene/canonical.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/scene/canonical.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 #include "tests/oracles/random_mechanism.hpp"

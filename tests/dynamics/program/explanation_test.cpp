@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "dynamics/equations.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/equations.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 

@@ -8,13 +8,13 @@
 #include <thread>
 
 #include "certification.hpp"
+#include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/program/cache.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/lanes.hpp"
 #include "dynamics/program/machine_code.hpp"
 #include "dynamics/program/trace.hpp"
-#include "dynamics/assembly/load_scene.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 #include "tests/support/allocation_counter.hpp"

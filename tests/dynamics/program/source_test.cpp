@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dynamics/program/firmware.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/program/firmware.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "dynamics/procedure/procedure.hpp"
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/procedure/procedure.hpp"
 
 namespace mixloop {
 namespace {
