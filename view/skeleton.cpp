@@ -44,10 +44,15 @@ std::vector<Skeleton::Posture> Skeleton::some_poses() {
   constexpr int kPoses = 4;
   std::vector<Posture> poses;
   for (int pose = 0; pose < kPoses; ++pose) {
-    std::vector<double> psi = scene_->home;
-    for (std::size_t i = 0; i < psi.size(); ++i)
-      psi[i] += 0.3 * pose * std::cos(1.0 + 2.0 * static_cast<double>(i));
-    place(psi, 0);
+    // As far as its closures let it.
+    double reach = 0.3 * pose;
+    for (int tries = 0; tries < 8; ++tries, reach /= 2) {
+      std::vector<double> psi = scene_->home;
+      for (std::size_t i = 0; i < psi.size(); ++i)
+        psi[i] += reach * std::cos(1.0 + 2.0 * static_cast<double>(i));
+      place(psi, 0);
+      if (ws_.is_solved) break;
+    }
     poses.push_back({.frames = {}, .C = ws_.C});
     for (const auto& frame : ws_.frames) poses.back().frames.push_back(frame.T_0);
   }

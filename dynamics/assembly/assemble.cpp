@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -58,6 +59,23 @@ std::vector<std::string> open_closures(Closing& closing, const Vector& x, const 
                                fmt::join(open_closures(closing, x, closing.home_psi()), ", ")));
 }
 
+/// From the guess, or where that leads nowhere, from places about it.
+void put_together(Closing& closing, Vector& x) {
+  constexpr int kStarts = 24;
+  constexpr std::array kReach{0.05, 0.2, 0.6};
+  const Vector guess = x;
+  Vector nearest = x;
+  Seeded seeded(13);
+  for (int start = 0; start <= kStarts; ++start) {
+    x = guess;
+    if (start > 0)
+      for (auto& value : x) value += kReach[static_cast<std::size_t>(start) % kReach.size()] * seeded.draw();
+    if (settle(closing, closing.whole(), x, closing.home_psi()).closes) return;
+    if (start == 0) nearest = x;
+  }
+  refuse(closing, nearest);
+}
+
 /// All closures hold beside home, too, where the motors move a little and the blocks are solved.
 void refuse_held_motors(Closing& closing, const std::vector<Closing::Part>& blocks, const Vector& x) {
   Closing::Part solved;
@@ -91,13 +109,18 @@ struct Found {
 /// The ways in which a block closes at home, the nearest to the guess first.
 std::vector<Found> ways_of(Closing& closing, const Closing::Part& block, const Vector& x, const Vector& guess,
                            int seeds) {
-  Seeded seeded(7);
+  Seeded far(7), near(8);
   std::vector<Found> found;
-  for (int seed = 0; seed <= seeds; ++seed) {
+  // All about, and half as many near the guess again: of two ways that nearly meet the nearer one is hard to
+  // hit.
+  for (int seed = 0; seed <= seeds + seeds / 2; ++seed) {
     Vector from = x;
     for (int u : block.unknowns) {
       from[u] = guess[u];
-      if (seed > 0) from[u] += seeded.draw() * (closing.turns(u) ? std::numbers::pi : 1.5);
+      if (seed > seeds)
+        from[u] += near.draw() * (seed % 2 == 0 ? 0.1 : 0.4);
+      else if (seed > 0)
+        from[u] += far.draw() * (closing.turns(u) ? std::numbers::pi : 1.5);
     }
     const Settled settled = settle(closing, block, from, closing.home_psi());
     if (!settled.closes) continue;
@@ -189,7 +212,7 @@ void assemble(Scene& scene) {
   Closing closing(scene, scene.default_parameters());
   const Vector guess = closing.home();
   Vector x = guess;
-  if (!settle(closing, closing.whole(), x, closing.home_psi()).closes) refuse(closing, x);
+  put_together(closing, x);
   Structure structure = structure_of(closing, x);
   x = guess;
   take_nearest(closing, structure.blocks, guess, x);

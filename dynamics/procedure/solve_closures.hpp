@@ -21,7 +21,7 @@ class ClosureSearch {
   /// Solves where the motors are at `psi` at time t: at once, or along the straight line from the last
   /// solution. False, x not finite, where a singular pose or the end of the mechanism's reach is on it.
   bool reach(std::span<const T> psi, const T& t) {
-    const Vec<T> from = ws_.anchor_psi, to = map_of(psi);
+    const Vec<T> from = ws_.anchor_psi, from_x = ws_.anchor_x, to = map_of(psi);
     const T from_t = ws_.anchor_t;
     T at(0), step(1);
     while (at < T(1)) {
@@ -35,7 +35,7 @@ class ClosureSearch {
       } else if (step > T(kLeastStep)) {
         step /= T(4);
       } else {
-        ws_.anchor_psi = from, ws_.anchor_t = from_t;
+        ws_.anchor_x = from_x, ws_.anchor_psi = from, ws_.anchor_t = from_t;
         ws_.x.setConstant(std::numeric_limits<T>::quiet_NaN());
         return false;
       }

@@ -9,6 +9,7 @@
 
 #include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/equations.hpp"
+#include "dynamics/procedure/constraints.hpp"
 #include "loop/review.hpp"
 #include "loop/simulate.hpp"
 #include "tests/oracles/closed_loops.hpp"
@@ -200,6 +201,22 @@ TEST(ClosedLoopExperiments, ThePlanOfTheDeltaRobotsCircleIsTheInverseKinematicsB
     EXPECT_LT((motors.psid - desired.psid).norm(), 1e-10) << k;
     EXPECT_LT((motors.psidd - desired.psidd).norm(), 1e-8) << k;
   }
+}
+
+// A pose that isn't reached leaves the search where it was.
+TEST(ClosedLoopExperiments, APoseOutOfReachIsForgotten) {
+  const auto scene = scene_named("planar_3rrr");
+  const auto model = make_model<double>(scene, std::span<const double>());
+  Workspace<double> ws(model);
+  coordinates<double>(model, scene->home, 0, ws);
+  const Vec home = ws.q;
+  const std::vector<double> far{scene->home[0] + 0.5, scene->home[1] - 0.9, scene->home[2] + 0.3};
+  coordinates<double>(model, far, 0, ws);
+  EXPECT_FALSE(ws.is_solved);
+  EXPECT_FALSE(ws.q.allFinite());
+  coordinates<double>(model, scene->home, 0, ws);
+  ASSERT_TRUE(ws.is_solved);
+  EXPECT_LT((ws.q - home).norm(), 1e-14);
 }
 
 // By counting it could not move.
