@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "dynamics/procedure/kinematics.hpp"
 
 /// Springs and dampers along a quantity f: along a formula of coordinates, or along the distance of two
@@ -90,9 +92,10 @@ MovingPoint<T> carried_down(const Model<T>& model, const std::vector<int>& chain
 template <class T, class Out>
 void share_out(const Model<T>& model, const std::vector<int>& chain, Vec3<T> force,
                const std::vector<LineStep<T>>& line, Out& a) {
-  for (auto i = chain.rbegin(); i != chain.rend(); ++i) {
-    const auto& link = model.links[static_cast<std::size_t>(*i)];
-    const LineStep<T>& step = line[static_cast<std::size_t>(*i)];
+  for (std::size_t k = chain.size(); k-- > 0;) {
+    const auto i = static_cast<std::size_t>(chain[k]);
+    const auto& link = model.links[i];
+    const LineStep<T>& step = line[i];
     const T x = step.cosine * force[0] + step.sine * force[1];
     const T y = step.cosine * force[1] - step.sine * force[0];
     const T z = force[2];
