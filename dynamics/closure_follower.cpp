@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/closure_follower.hpp"
+#include "notation/functions/sincos.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +45,7 @@ void ClosureFollower::set_parameters(std::span<const double> parameters) {
   for (int j : scene_->started) {
     const double home = scene_->coordinates[static_cast<std::size_t>(j)].home;
     put(home);
-    if (scene_->turns(j)) put(std::cos(home)), put(std::sin(home));
+    if (scene_->turns(j)) put(mixloop_functions::cos(home)), put(mixloop_functions::sin(home));
   }
   for (std::size_t i = 0; i < sizes_.started * (sizes_.n + 1); ++i) put(0);
   for (double home : scene_->home) put(home);

@@ -11,8 +11,11 @@
 
 namespace mixloop {
 
-extern const char* const kSincosText;       // generated from sincos.hpp
-extern const char* const kSincosLanesText;  // generated from sincos_lanes.hpp
+// Generated from the files of these names.
+extern const char* const kFusedText;
+extern const char* const kElementaryText;
+extern const char* const kSincosText;
+extern const char* const kLanesText;
 
 namespace {
 
@@ -123,7 +126,8 @@ class Writer {
 
   // A constant or set-up value as an output, which may be a vector of lanes.
   std::string as_real(NodeId id) const {
-    return program_.stages[id] == Stage::run ? name_[id] : fmt::format("mixloop_lift<Real>({})", name_[id]);
+    return program_.stages[id] == Stage::run ? name_[id]
+                                             : fmt::format("mixloop_functions::lift<Real>({})", name_[id]);
   }
 
   void exports() {
@@ -190,7 +194,8 @@ class Writer {
     if (!is_function && row.arity == 1) return fmt::format("{}{}", row.text, name_[n.a]);
     if (!is_function) return fmt::format("{} {} {}", name_[n.a], row.text, name_[n.b]);
     std::string arguments = lifted(n.a);
-    if (row.arity == 2) arguments += ", " + lifted(n.b);
+    if (row.arity > 1) arguments += ", " + lifted(n.b);
+    if (row.arity > 2) arguments += ", " + lifted(n.c);
     return fmt::format("{}({})", row.text, arguments);
   }
 
@@ -201,7 +206,8 @@ class Writer {
     for (NodeId angle : batch) angles += (angles.empty() ? "" : ", ") + name_[angle];
     const std::size_t first = batches_++, count = batch.size();
     line(
-        "  const {0} a{1}[] = {{{2}}};\n  {0} s{1}[{3}], c{1}[{3}];\n  mixloop_sincos::sincos_of<{3}>(a{1}, "
+        "  const {0} a{1}[] = {{{2}}};\n  {0} s{1}[{3}], c{1}[{3}];\n  "
+        "mixloop_functions::sincos_of<{3}>(a{1}, "
         "s{1}, c{1});",
         type, first, angles, count);
     for (std::size_t i = 0; i < count; ++i)
@@ -220,12 +226,7 @@ class Writer {
 };
 
 constexpr const char* kLibrarySincos = R"(
-#if defined(__GNUC__)
-#define MIXLOOP_INLINE inline __attribute__((always_inline))
-#else
-#define MIXLOOP_INLINE inline
-#endif
-namespace mixloop_sincos {
+namespace mixloop_functions {
 MIXLOOP_INLINE void sincos(double x, double* sine, double* cosine) {
   *sine = sin(x);
   *cosine = cos(x);
@@ -237,7 +238,7 @@ MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount],
 #endif
   for (int i = 0; i < kCount; ++i) sincos(x[i], sine + i, cosine + i);
 }
-}  // namespace mixloop_sincos
+}  // namespace mixloop_functions
 )";
 
 constexpr const char* kFunctions = R"(
@@ -246,23 +247,19 @@ constexpr const char* kFunctions = R"(
 #else
 #define MIXLOOP_PART inline
 #endif
-namespace {
-template <class Real>
-inline Real mixloop_lift(double x) { return x - Real(); }
-[[maybe_unused]] inline double mixloop_sqrt(double x) { return sqrt(x); }
-[[maybe_unused]] inline double mixloop_exp(double x) { return exp(x); }
-[[maybe_unused]] inline double mixloop_log(double x) { return log(x); }
-[[maybe_unused]] inline double mixloop_atan2(double y, double x) { return atan2(y, x); }
-}  // namespace
+namespace mixloop_functions {
+inline double root(double x) { return sqrt(x); }
+}  // namespace mixloop_functions
 )";
 
 }  // namespace
 
 std::string source_head(const SourceStyle& style) {
-  std::string head = "#include <math.h>\n";
+  std::string head = kFusedText;
   head += style.trigonometry == Trigonometry::inlined ? kSincosText : kLibrarySincos;
+  head += kElementaryText;
   head += kFunctions;
-  if (style.lanes) head += kSincosLanesText;
+  if (style.lanes) head += kLanesText;
   return head;
 }
 

@@ -36,8 +36,8 @@ std::vector<Statement> Statements::of(Stage stage) const {
 
 std::vector<NodeId> Statements::takes(const Statement& step) const {
   if (!step.batch.empty()) return step.batch;
-  const ExpressionNode& n = program_.nodes[step.node];
-  return is_binary(n.op) ? std::vector{n.a, n.b} : std::vector{n.a};
+  const Operands operands(program_.nodes[step.node]);
+  return {operands.begin(), operands.end()};
 }
 
 std::vector<NodeId> Statements::gives(const Statement& step) const {
@@ -55,7 +55,8 @@ std::vector<std::vector<NodeId>> Statements::angle_batches(Stage stage) const {
   for (NodeId id = 0; id < program_.nodes.size(); ++id) {
     const ExpressionNode& n = program_.nodes[id];
     if (is_leaf(program_.nodes[id].op) || program_.stages[id] != stage) continue;
-    depth[id] = std::max(depth[n.a], is_binary(n.op) ? depth[n.b] : 0) + is_trigonometric(n.op);
+    for (NodeId x : Operands(n)) depth[id] = std::max(depth[id], depth[x]);
+    depth[id] += is_trigonometric(n.op);
     if (!is_trigonometric(n.op)) continue;
     levels.resize(std::max(levels.size(), static_cast<std::size_t>(depth[id])));
     auto& level = levels[static_cast<std::size_t>(depth[id]) - 1];
@@ -81,8 +82,7 @@ std::vector<NodeId> Statements::with_operands(NodeId root, Stage stage,
     if (seen[id] || is_leaf(program_.nodes[id].op) || program_.stages[id] != stage || taken[id]) continue;
     seen[id] = true;
     wanted.push_back(id);
-    waiting.push_back(program_.nodes[id].a);
-    if (is_binary(program_.nodes[id].op)) waiting.push_back(program_.nodes[id].b);
+    for (NodeId x : Operands(program_.nodes[id])) waiting.push_back(x);
   }
   std::sort(wanted.begin(), wanted.end());
   return wanted;

@@ -15,10 +15,9 @@ double cost_of(const Graph& graph, std::span<const NodeId> outputs) {
   double cost = 0;
   for (NodeId id = 0; id < graph.size(); ++id) {
     const ExpressionNode& node = graph[id];
-    if (node.op == Op::input)
-      runs[id] = static_cast<Block>(node.a) != Block::parameter;
-    else if (!is_leaf(node.op))
-      runs[id] = runs[node.a] || (is_binary(node.op) && runs[node.b]);
+    if (node.op == Op::input) runs[id] = static_cast<Block>(node.a) != Block::parameter;
+    for (NodeId x : Operands(node))
+      if (runs[x]) runs[id] = true;
     if (is_needed[id] && runs[id]) cost += operation(node.op).cost;
   }
   return cost;

@@ -34,7 +34,7 @@ __attribute__((noinline, cold)) void one_by_one(const typename Vectors<kLanes>::
                                                 typename Vectors<kLanes>::Real* cosine) {
   for (int lane = 0; lane < kLanes; ++lane) {
     double s, c;
-    mixloop_sincos::sincos((*x)[lane], &s, &c);
+    mixloop_functions::sincos((*x)[lane], &s, &c);
     (*sine)[lane] = s;
     (*cosine)[lane] = c;
   }
@@ -50,12 +50,12 @@ MIXLOOP_INLINE void sincos_of(const typename Vectors<kLanes>::Real (&x)[kCount],
   Real sum = {};
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
-    mixloop_sincos::small_sincos<Bits>(x[i], sine[i], cosine[i]);
+    mixloop_functions::small_sincos<Bits>(x[i], sine[i], cosine[i]);
     sum += (Real)((Bits)x[i] & kMagnitude);
   }
   double all = 0.0;
   for (int lane = 0; lane < kLanes; ++lane) all += sum[lane];
-  if (__builtin_expect(all < mixloop_sincos::kLimit, 1)) return;
+  if (__builtin_expect(all < mixloop_functions::kLimit, 1)) return;
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
     const Real angle = x[i];  // only these copies' addresses are taken
@@ -67,7 +67,7 @@ MIXLOOP_INLINE void sincos_of(const typename Vectors<kLanes>::Real (&x)[kCount],
 
 }  // namespace mixloop_lanes
 
-namespace mixloop_sincos {
+namespace mixloop_functions {
 template <int kCount>
 MIXLOOP_INLINE void sincos_of(const mixloop_lanes::Lanes4 (&x)[kCount], mixloop_lanes::Lanes4 (&sine)[kCount],
                               mixloop_lanes::Lanes4 (&cosine)[kCount]) {
@@ -78,23 +78,37 @@ MIXLOOP_INLINE void sincos_of(const mixloop_lanes::Lanes8 (&x)[kCount], mixloop_
                               mixloop_lanes::Lanes8 (&cosine)[kCount]) {
   mixloop_lanes::sincos_of<8, kCount>(x, sine, cosine);
 }
-}  // namespace mixloop_sincos
 
-namespace {
-#define MIXLOOP_LANE_BY_LANE(name, function)                                        \
-  MIXLOOP_INLINE mixloop_lanes::Lanes4 name(mixloop_lanes::Lanes4 x) {              \
-    return mixloop_lanes::lane_by_lane<4>(x, [](double y) { return function(y); }); \
-  }                                                                                 \
-  MIXLOOP_INLINE mixloop_lanes::Lanes8 name(mixloop_lanes::Lanes8 x) {              \
-    return mixloop_lanes::lane_by_lane<8>(x, [](double y) { return function(y); }); \
+#if defined(__x86_64__) && defined(__AVX512F__) && !defined(__clang__)
+MIXLOOP_INLINE mixloop_lanes::Lanes8 root(mixloop_lanes::Lanes8 x) {
+  return __builtin_ia32_sqrtpd512_mask(x, x, -1, 4);
+}
+#else
+MIXLOOP_INLINE mixloop_lanes::Lanes8 root(mixloop_lanes::Lanes8 x) {
+  return mixloop_lanes::lane_by_lane<8>(x, [](double y) { return sqrt(y); });
+}
+#endif
+#if defined(__AVX__) && !defined(__clang__)
+MIXLOOP_INLINE mixloop_lanes::Lanes4 root(mixloop_lanes::Lanes4 x) { return __builtin_ia32_sqrtpd256(x); }
+#else
+MIXLOOP_INLINE mixloop_lanes::Lanes4 root(mixloop_lanes::Lanes4 x) {
+  return mixloop_lanes::lane_by_lane<4>(x, [](double y) { return sqrt(y); });
+}
+#endif
+
+#define MIXLOOP_LANE_BY_LANE(name)                                              \
+  MIXLOOP_INLINE mixloop_lanes::Lanes4 name(mixloop_lanes::Lanes4 x) {          \
+    return mixloop_lanes::lane_by_lane<4>(x, [](double y) { return name(y); }); \
+  }                                                                             \
+  MIXLOOP_INLINE mixloop_lanes::Lanes8 name(mixloop_lanes::Lanes8 x) {          \
+    return mixloop_lanes::lane_by_lane<8>(x, [](double y) { return name(y); }); \
   }
-MIXLOOP_LANE_BY_LANE(mixloop_sqrt, sqrt)
-MIXLOOP_LANE_BY_LANE(mixloop_exp, exp)
-MIXLOOP_LANE_BY_LANE(mixloop_log, log)
+MIXLOOP_LANE_BY_LANE(exp)
+MIXLOOP_LANE_BY_LANE(log)
 #undef MIXLOOP_LANE_BY_LANE
 template <class Lanes>
-MIXLOOP_INLINE Lanes mixloop_atan2(Lanes y, Lanes x) {
-  for (unsigned i = 0; i < sizeof(Lanes) / sizeof(double); ++i) y[i] = atan2(y[i], x[i]);
+MIXLOOP_INLINE Lanes atan2(Lanes y, Lanes x) {
+  for (unsigned i = 0; i < sizeof(Lanes) / sizeof(double); ++i) y[i] = atan2((double)y[i], (double)x[i]);
   return y;
 }
-}  // namespace
+}  // namespace mixloop_functions
