@@ -255,7 +255,9 @@ inline double root(double x) { return sqrt(x); }
 }  // namespace
 
 std::string source_head(const SourceStyle& style) {
-  std::string head = kFusedText;
+  // Vectors are passed among functions that are inlined alone: no calling convention matters.
+  std::string head = "#if defined(__GNUC__)\n#pragma GCC diagnostic ignored \"-Wpsabi\"\n#endif\n";
+  head += kFusedText;
   head += style.trigonometry == Trigonometry::inlined ? kSincosText : kLibrarySincos;
   head += kElementaryText;
   head += kFunctions;

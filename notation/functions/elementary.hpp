@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// exp, log and atan2: the same bits on every machine with IEEE doubles (-ffp-contract=off).
+// exp, log and atan2: the same bits on every machine with IEEE doubles (-ffp-contract=off). Static: an inline
+// function's table would keep the shared objects of programs from being unloaded.
 // This text also goes into every emitted program, so it stands alone: C++17 and <math.h>.
 #pragma once
 
@@ -15,7 +16,7 @@ constexpr double kLogTwo = 0x1.62e42fefa39efp-1;
 constexpr double kLogTwoRest = 0x1.abc9e3b39803fp-56;
 
 /// 2^k, -1022 <= k <= 1023.
-inline double power_of_two(int k) {
+MIXLOOP_INLINE double power_of_two(int k) {
   const uint64_t bits = (uint64_t)(k + 1023) << 52;
   double result;
   memcpy(&result, &bits, sizeof result);
@@ -23,7 +24,7 @@ inline double power_of_two(int k) {
 }
 
 /// Error below 0.9 units in the last place, of results below 2^-1021 half a unit more.
-inline double exp(double x) {
+[[maybe_unused]] static double exp(double x) {
   if (!(x < 710.0)) return x - x == 0 ? HUGE_VAL : x;
   if (x < -746.0) return 0.0;
   // x = k log 2 + r, |r| <= log(2) / 2.
@@ -46,7 +47,7 @@ inline double exp(double x) {
 }
 
 /// Error below 0.7 units in the last place.
-inline double log(double x) {
+[[maybe_unused]] static double log(double x) {
   if (!(x > 0)) return x == 0 ? -HUGE_VAL : (x - x) / 0.0;
   if (!(x < HUGE_VAL)) return x;
   int k = -1023;
@@ -73,7 +74,7 @@ inline double log(double x) {
 }
 
 /// Error below 1 unit in the last place.
-inline double atan2(double y, double x) {
+[[maybe_unused]] static double atan2(double y, double x) {
   // atan(i / 8), and what a double leaves of it.
   static const double kAngle[9][2] = {{0x0p+0, 0x0p+0},
                                       {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
