@@ -27,6 +27,7 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/single_unknown.cpp
     symbolic/three_distances.cpp
     symbolic/tracer.cpp
+    program/affine_angles.cpp
     program/short_chains.cpp
     program/program.cpp
     program/source.cpp

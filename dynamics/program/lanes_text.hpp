@@ -79,6 +79,35 @@ MIXLOOP_INLINE void sincos_of(const mixloop_lanes::Lanes8 (&x)[kCount], mixloop_
   mixloop_lanes::sincos_of<8, kCount>(x, sine, cosine);
 }
 
+template <class Lanes, int kTerms, int kCount>
+MIXLOOP_INLINE void sincos_of_affine_lanes(const Lanes (&q)[kTerms], const double (&factor)[kTerms][kCount],
+                                           const double (&constant)[kCount], Lanes (&sine)[kCount],
+                                           Lanes (&cosine)[kCount]) {
+  Lanes x[kCount];
+#pragma GCC unroll 4
+  for (int i = 0; i < kCount; ++i) {
+    x[i] = lift<Lanes>(constant[i]);
+#pragma GCC unroll 4
+    for (int k = 0; k < kTerms; ++k)
+      if (factor[k][i] != 0) x[i] = fma(q[k], lift<Lanes>(factor[k][i]), x[i]);
+  }
+  sincos_of(x, sine, cosine);
+}
+template <int kTerms, int kCount>
+MIXLOOP_INLINE void sincos_of_affine(const mixloop_lanes::Lanes4 (&q)[kTerms],
+                                     const double (&factor)[kTerms][kCount], const double (&constant)[kCount],
+                                     mixloop_lanes::Lanes4 (&sine)[kCount],
+                                     mixloop_lanes::Lanes4 (&cosine)[kCount]) {
+  sincos_of_affine_lanes(q, factor, constant, sine, cosine);
+}
+template <int kTerms, int kCount>
+MIXLOOP_INLINE void sincos_of_affine(const mixloop_lanes::Lanes8 (&q)[kTerms],
+                                     const double (&factor)[kTerms][kCount], const double (&constant)[kCount],
+                                     mixloop_lanes::Lanes8 (&sine)[kCount],
+                                     mixloop_lanes::Lanes8 (&cosine)[kCount]) {
+  sincos_of_affine_lanes(q, factor, constant, sine, cosine);
+}
+
 #if defined(__x86_64__) && defined(__AVX512F__) && !defined(__clang__)
 MIXLOOP_INLINE mixloop_lanes::Lanes8 root(mixloop_lanes::Lanes8 x) {
   return __builtin_ia32_sqrtpd512_mask(x, x, -1, 4);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <queue>
 
+#include "dynamics/program/affine_angles.hpp"
 #include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
@@ -54,6 +55,7 @@ class Rebuilder {
   };
   using Waiting = std::priority_queue<Value>;
   static constexpr int kNever = std::numeric_limits<int>::max();
+  static constexpr int kAnglesKnown = 4 * operation(Op::fma).latency;
 
   // Sums that go into one other sum alone, and products into one other product, are parts of longer ones.
   void find_inner() {
@@ -87,6 +89,10 @@ class Rebuilder {
     int last = 0;
     std::size_t i = 0;
     for (NodeId x : Operands(n)) now[i++] = values_[x].is.node(), last = std::max(last, values_[x].known);
+    if (n.op == Op::sin || n.op == Op::cos) {
+      if (const auto angle = affine_angle(program_, n.a)) now[0] = written(*angle);
+      last = std::max(last, kAnglesKnown);  // they come together
+    }
     return {Expression::of(recording_graph().operation(n.op, now[0], now[1], now[2])), known(id, last, n.op),
             false, id};
   }
@@ -96,13 +102,24 @@ class Rebuilder {
     return program_.stages[value] == Program::Stage::set_up && program_.stages[user] == Program::Stage::run;
   }
 
+  // One product after the other taken in: angles that are written alike are worked out side by side
+  // (Statements).
+  static NodeId written(const AffineAngle& angle) {
+    Graph& graph = recording_graph();
+    NodeId sum = graph.constant(angle.constant);
+    for (const auto& [index, factor] : angle.terms)
+      sum = graph.fused(Op::fma, graph.input(Block::psi, index), graph.constant(factor), sum);
+    return sum;
+  }
+
   // Of several divisions by one value one is left, or none in the run: a division takes the time of several
   // products.
   Value times_reciprocal(NodeId id) const {
     const ExpressionNode& n = program_.nodes[id];
     const Value &above = values_[n.a], &below = values_[n.b];
     Value result{above.is * (Expression(1.0) / below.is), 0, false, id};
-    result.factors = is_known_before(n.b, id) ? above.known : std::max(above.known, known(id, below.known, Op::div));
+    result.factors =
+        is_known_before(n.b, id) ? above.known : std::max(above.known, known(id, below.known, Op::div));
     result.known = known(id, result.factors, Op::mul);
     result.shared = uses_[id] > 1;
     return result;

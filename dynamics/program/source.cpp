@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "dynamics/program/statements.hpp"
 #include "dynamics/symbolic/operations.hpp"
@@ -178,7 +179,7 @@ class Writer {
   }
 
   void write(const Statement& step, const char* type) {
-    if (!step.batch.empty()) return sines_and_cosines(step.batch, type);
+    if (!step.batch.empty()) return sines_and_cosines(step, type);
     name_[step.node] = fmt::format("v{}", step.node);
     line("  const {} v{} = {};", type, step.node, right_side(program_.nodes[step.node]));
   }
@@ -201,18 +202,45 @@ class Writer {
 
   std::string lifted(NodeId id) const { return in_run_ ? as_real(id) : name_[id]; }
 
-  void sines_and_cosines(const std::vector<NodeId>& batch, const char* type) {
-    std::string angles;
-    for (NodeId angle : batch) angles += (angles.empty() ? "" : ", ") + name_[angle];
+  void sines_and_cosines(const Statement& step, const char* type) {
+    const std::vector<NodeId>& batch = step.batch;
     const std::size_t first = batches_++, count = batch.size();
-    line(
-        "  const {0} a{1}[] = {{{2}}};\n  {0} s{1}[{3}], c{1}[{3}];\n  "
-        "mixloop_functions::sincos_of<{3}>(a{1}, "
-        "s{1}, c{1});",
-        type, first, angles, count);
+    line("  {0} s{1}[{2}], c{1}[{2}];", type, first, count);
+    if (step.angles.empty()) {
+      std::string angles;
+      for (NodeId angle : batch) angles += (angles.empty() ? "" : ", ") + name_[angle];
+      line("  const {0} a{1}[] = {{{2}}};\n  mixloop_functions::sincos_of<{3}>(a{1}, s{1}, c{1});", type,
+           first, angles, count);
+    } else {
+      affine_angles(step.angles, type, first);
+    }
     for (std::size_t i = 0; i < count; ++i)
       for (NodeId id : statements_.pair_of(batch[i]))
         name_[id] = fmt::format("{}{}[{}]", program_.nodes[id].op == Op::sin ? 's' : 'c', first, i);
+  }
+
+  // A row of factors for each coordinate that one of the angles has.
+  void affine_angles(const std::vector<AffineAngle>& angles, const char* type, std::size_t first) {
+    std::map<NodeId, std::vector<double>> rows;
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      for (const auto& [index, factor] : angles[i].terms)
+        rows.try_emplace(index, angles.size(), 0.0).first->second[i] = factor;
+    std::string coordinates, factors;
+    const auto row_of = [](const std::vector<double>& row) {
+      std::string text;
+      for (double x : row) text += (text.empty() ? "" : ", ") + number(x);
+      return text;
+    };
+    for (const auto& [index, row] : rows) {
+      coordinates += fmt::format("{}psi[{}]", coordinates.empty() ? "" : ", ", index);
+      factors += fmt::format("{}{{{}}}", factors.empty() ? "" : ", ", row_of(row));
+    }
+    std::vector<double> offsets;
+    for (const AffineAngle& angle : angles) offsets.push_back(angle.constant);
+    line(
+        "  const {0} q{1}[] = {{{2}}};\n  constexpr double f{1}[{3}][{4}] = {{{5}}}, o{1}[] = {{{6}}};\n"
+        "  mixloop_functions::sincos_of_affine<{3}, {4}>(q{1}, f{1}, o{1}, s{1}, c{1});",
+        type, first, coordinates, rows.size(), angles.size(), factors, row_of(offsets));
   }
 
   const Program& program_;
@@ -237,6 +265,16 @@ MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount],
 #pragma GCC unroll 4
 #endif
   for (int i = 0; i < kCount; ++i) sincos(x[i], sine + i, cosine + i);
+}
+template <int kTerms, int kCount>
+MIXLOOP_INLINE void sincos_of_affine(const double (&q)[kTerms], const double (&factor)[kTerms][kCount],
+                                     const double (&constant)[kCount], double (&sine)[kCount],
+                                     double (&cosine)[kCount]) {
+  for (int i = 0; i < kCount; ++i) {
+    double x = constant[i];
+    for (int k = 0; k < kTerms; ++k) x = fma(q[k], factor[k][i], x);
+    sincos(x, sine + i, cosine + i);
+  }
 }
 }  // namespace mixloop_functions
 )";

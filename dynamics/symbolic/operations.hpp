@@ -82,17 +82,17 @@ inline constexpr std::array<Operation, kOps> kOperations = [] {
        [](E, E, E) {
          return Partials{1.0, 1.0};
        },
-       1, 4, "+", &Count::add},
+       1, 3, "+", &Count::add},
       {Op::sub, "sub", 2, [](double a, double b, double) { return a - b; },
        [](E, E, E) {
          return Partials{1.0, -1.0};
        },
-       1, 4, "-", &Count::add},
+       1, 3, "-", &Count::add},
       {Op::mul, "mul", 2, [](double a, double b, double) { return a * b; },
        [](E a, E b, E) {
          return Partials{b, a};
        },
-       1, 4, "*", &Count::mul},
+       1, 3, "*", &Count::mul},
       {Op::div, "div", 2, [](double a, double b, double) { return a / b; },
        [](E, E b, E y) {
          return Partials{1.0 / b, -y / b};

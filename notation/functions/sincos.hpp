@@ -57,9 +57,10 @@ MIXLOOP_INLINE void reduce(const Real& x, Real& near, Real& r, Real& shifted) {
 // Odd quadrants swap sine and cosine; the sine turns in quadrants 2 and 3, the cosine in 1 and 2.
 template <class Bits>
 MIXLOOP_INLINE void to_quadrant(const Bits& quadrant, Bits& sine, Bits& cosine) {
-  const Bits swapped = (sine ^ cosine) & (0 - (quadrant & 1));
-  sine ^= swapped ^ ((quadrant & 2) << 62);
-  cosine ^= swapped ^ (((quadrant + 1) & 2) << 62);
+  const Bits odd = 0 - (quadrant & 1), turned = (quadrant & 2) << 62, turned_too = ((quadrant + 1) & 2) << 62;
+  const Bits s = (sine & ~odd) | (cosine & odd), c = (cosine & ~odd) | (sine & odd);
+  sine = s ^ turned;
+  cosine = c ^ turned_too;
 }
 
 // Of angles from kLimit on: 2/pi's bits that matter times the angle's (Payne and Hanek), in whole numbers.
@@ -190,19 +191,15 @@ typedef int64_t FourBits __attribute__((vector_size(32)));
   }
 }
 
-/// The same of up to four angles together.
 template <int kCount>
-MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount], double (&cosine)[kCount]) {
+MIXLOOP_INLINE void sincos_of_four(const Four& x, double (&sine)[kCount], double (&cosine)[kCount]) {
   static_assert(kCount <= 4, "four lanes");
-  const Four a = {x[0], x[kCount > 1 ? 1 : 0], x[kCount > 2 ? 2 : 0], x[kCount > 3 ? 3 : 0]};
   Four s, c;
-  small_sincos<FourBits>(a, s, c);
-  double sum = 0.0;
-#pragma GCC unroll 4
-  for (int i = 0; i < kCount; ++i) sum += fabs(x[i]);
-  if (__builtin_expect(!(sum < kLimit), 0)) {
+  small_sincos<FourBits>(x, s, c);
+  const FourBits near = (FourBits)(x < kLimit) & (FourBits)(x > -kLimit);
+  if (__builtin_expect((near[0] & near[1] & near[2] & near[3]) == 0, 0)) {
     Four exact_s, exact_c;
-    const Four angles = a;  // only this copy's address is taken
+    const Four angles = x;  // only this copy's address is taken
     one_by_one(&angles, &exact_s, &exact_c);
     s = exact_s, c = exact_c;
   }
@@ -210,11 +207,44 @@ MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount],
   for (int i = 0; i < kCount; ++i) sine[i] = s[i], cosine[i] = c[i];
 }
 
+template <int kCount>
+MIXLOOP_INLINE Four four_of(const double (&x)[kCount]) {
+  return Four{x[0], x[kCount > 1 ? 1 : 0], x[kCount > 2 ? 2 : 0], x[kCount > 3 ? 3 : 0]};
+}
+
+/// The same of up to four angles together.
+template <int kCount>
+MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount], double (&cosine)[kCount]) {
+  sincos_of_four(four_of(x), sine, cosine);
+}
+
+/// The same of the angles constant[i] + sum of factor[k][i] q[k], products taken in one after the other.
+template <int kTerms, int kCount>
+MIXLOOP_INLINE void sincos_of_affine(const double (&q)[kTerms], const double (&factor)[kTerms][kCount],
+                                     const double (&constant)[kCount], double (&sine)[kCount],
+                                     double (&cosine)[kCount]) {
+  Four x = four_of(constant);
+#pragma GCC unroll 4
+  for (int k = 0; k < kTerms; ++k) x = fma(lift<Four>(q[k]), four_of(factor[k]), x);
+  sincos_of_four(x, sine, cosine);
+}
+
 #else
 
 template <int kCount>
 inline void sincos_of(const double (&x)[kCount], double (&sine)[kCount], double (&cosine)[kCount]) {
   for (int i = 0; i < kCount; ++i) sincos(x[i], sine + i, cosine + i);
+}
+
+template <int kTerms, int kCount>
+inline void sincos_of_affine(const double (&q)[kTerms], const double (&factor)[kTerms][kCount],
+                             const double (&constant)[kCount], double (&sine)[kCount],
+                             double (&cosine)[kCount]) {
+  for (int i = 0; i < kCount; ++i) {
+    double x = constant[i];
+    for (int k = 0; k < kTerms; ++k) x = fma(q[k], factor[k][i], x);
+    sincos(x, sine + i, cosine + i);
+  }
 }
 
 #endif
