@@ -44,7 +44,6 @@ class Rebuilder {
     bool opposite = false;
     NodeId order = 0;      // of equals, the first recorded goes first
     int factors = kNever;  // of a product that a sum may take in: when its factors are known
-    bool shared = false;   // others need the product, too
 
     bool is_product() const { return factors != kNever; }
     int ready() const { return is_product() ? factors : known; }
@@ -118,10 +117,10 @@ class Rebuilder {
     const ExpressionNode& n = program_.nodes[id];
     const Value &above = values_[n.a], &below = values_[n.b];
     Value result{above.is * (Expression(1.0) / below.is), 0, false, id};
-    result.factors =
+    const int factors =
         is_known_before(n.b, id) ? above.known : std::max(above.known, known(id, below.known, Op::div));
-    result.known = known(id, result.factors, Op::mul);
-    result.shared = uses_[id] > 1;
+    result.known = known(id, factors, Op::mul);
+    if (uses_[id] == 1) result.factors = factors;
     return result;
   }
 
@@ -144,15 +143,15 @@ class Rebuilder {
     Value whole = waiting.top();
     if (whole.opposite) whole.is = -whole.is;
     whole.opposite = false;
-    if (is_product) whole.factors = factors, whole.shared = uses_[root] > 1;
+    if (is_product && uses_[root] == 1) whole.factors = factors;  // others that need it need it whole
     return whole;
   }
 
   // Of two terms, of which the second is ready last: where it is a product, it is taken in.
   Value sum(NodeId root, Value x, Value y) const {
-    if (!is_taken_in(y, x)) std::swap(x, y);
+    if (!y.is_product()) std::swap(x, y);
     Value result{{}, 0, false, std::max(x.order, y.order)};
-    if (is_taken_in(y, x)) {
+    if (y.is_product()) {
       const ExpressionNode product = recording_graph()[y.is.node()];
       const Op op = x.opposite == y.opposite ? Op::fma : x.opposite ? Op::fms : Op::fnma;
       result.is = Expression::of(recording_graph().fused(op, product.a, product.b, x.is.node()));
@@ -166,11 +165,6 @@ class Rebuilder {
     result.known = known(root, std::max(x.known, y.known), op);
     result.opposite = x.opposite;
     return result;
-  }
-
-  // A product that others need, too, stays: a sum that takes it in is known earlier, or is as well without.
-  static bool is_taken_in(const Value& product, const Value& other) {
-    return product.is_product() && (!product.shared || product.known > other.known);
   }
 
   // The parts of a whole sum or product, from left to right.

@@ -270,9 +270,16 @@ template <int kTerms, int kCount>
 MIXLOOP_INLINE void sincos_of_affine(const double (&q)[kTerms], const double (&factor)[kTerms][kCount],
                                      const double (&constant)[kCount], double (&sine)[kCount],
                                      double (&cosine)[kCount]) {
+#if defined(__GNUC__)
+#pragma GCC unroll 4
+#endif
   for (int i = 0; i < kCount; ++i) {
     double x = constant[i];
-    for (int k = 0; k < kTerms; ++k) x = fma(q[k], factor[k][i], x);
+#if defined(__GNUC__)
+#pragma GCC unroll 4
+#endif
+    for (int k = 0; k < kTerms; ++k)
+      if (factor[k][i] != 0) x = fma(q[k], factor[k][i], x);
     sincos(x, sine + i, cosine + i);
   }
 }
