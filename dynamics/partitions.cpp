@@ -14,10 +14,11 @@ Equations::Workspace workspace_of(const Partition& partition, Evaluation how,
                                   std::span<const double> parameters) {
   auto equations = equations_of(partition.scene, how, purposes, options);
   if (equations->evaluation() == Evaluation::reference)
-    throw InputError("too_large", {partition.scene->name},
-                     "coordinates are switched by programs, and the procedure itself serves here: it was asked "
-                     "for, or a program takes more operations than one may; expected another evaluation, a "
-                     "smaller mechanism, or near_singular: stop");
+    throw InputError(
+        "too_large", {partition.scene->name},
+        "coordinates are switched by programs, and the procedure itself serves here: it was asked "
+        "for, or a program takes more operations than one may; expected another evaluation, a "
+        "smaller mechanism, or near_singular: stop");
   Equations::Workspace workspace(std::move(equations), parameters);
   workspace.hold_anchor();
   return workspace;
@@ -38,9 +39,8 @@ Partitions::Partitions(List partitions, Evaluation how, std::initializer_list<Pu
       places.independent.push_back(static_cast<int>(i) == partition.swapped ? place_of(partition.freed)
                                                                             : solved.size() + i);
     for (int j : partition.scene->started)
-      places.started.push_back(j == partition.solved
-                                   ? solved.size() + static_cast<std::size_t>(partition.swapped)
-                                   : place_of(j));
+      places.started.push_back(
+          j == partition.solved ? solved.size() + static_cast<std::size_t>(partition.swapped) : place_of(j));
     places_.push_back(std::move(places));
     dynamics_.push_back(workspace_of(partition, how, purposes, options, parameters));
   }

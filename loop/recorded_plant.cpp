@@ -15,8 +15,7 @@ const Experiment& checked(const Experiment& experiment, const Plan& plan) {
 }
 
 double record_bytes(const Experiment& experiment, const Plan& plan) {
-  return static_cast<double>(plan.ticks() + 3) *
-         static_cast<double>(Recorder::bytes_a_tick(experiment));
+  return static_cast<double>(plan.ticks() + 3) * static_cast<double>(Recorder::bytes_a_tick(experiment));
 }
 
 /// "the record of ... takes ... GB".

@@ -89,8 +89,8 @@ class Recorder {
   std::size_t row_of_conditions_ = 0;
   std::vector<double> conditions_;  ///< rows of tick, friction, parameters: as it began, then each change
   std::vector<double> zero_, hand_;
-  std::optional<Equations::Workspace> energy_;                            ///< none: it isn't measured
-  std::optional<Partitions> switched_energy_;                             ///< where coordinates are switched
+  std::optional<Equations::Workspace> energy_;  ///< none: it isn't measured
+  std::optional<Partitions> switched_energy_;   ///< where coordinates are switched
   LoopMotion hand_loops_;
   double first_energy_ = 0, largest_energy_ = 0, largest_imbalance_ = 0;  ///< J
   bool energy_begun_ = false, energy_changed_ = false;                    ///< changed: by a fault

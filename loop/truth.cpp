@@ -27,10 +27,10 @@ TruthReader::TruthReader(const Experiment& experiment, const Recorder& recorder)
   if (partitions_)
     switched_.emplace(experiment, options);
   else
-    dynamics_.emplace(equations_of(experiment.scene, experiment.evaluation,
-                                   {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy},
-                                   options),
-                      experiment.plant_parameters);
+    dynamics_.emplace(
+        equations_of(experiment.scene, experiment.evaluation,
+                     {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy}, options),
+        experiment.plant_parameters);
   truth_.psidd = zdd_;
 }
 

@@ -94,8 +94,8 @@ class Plant {
   /// Empty where it can.
   std::string no_way_on() const;
 
-  /// How the loops move at tick(), and how often other coordinates were switched to; null and 0 where none are
-  /// to be.
+  /// How the loops move at tick(), and how often other coordinates were switched to; null and 0 where none
+  /// are to be.
   const LoopMotion* loops() const { return partitions_ ? &state_.loops : nullptr; }
   std::int64_t switches() const { return state_.switches; }
 
@@ -130,9 +130,9 @@ class Plant {
   bool faults_may_come_;              ///< by inject
   std::optional<Hardware> hardware_;  ///< none: ideal
   PlantState state_;
-  bool is_closed_ = true;                ///< closures hold at tick()
+  bool is_closed_ = true;                 ///< closures hold at tick()
   std::optional<Partitions> partitions_;  ///< where coordinates are switched
-  LoopMotion stage_;                     ///< at a stage
+  LoopMotion stage_;                      ///< at a stage
 };
 
 template <class Control>

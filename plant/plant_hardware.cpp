@@ -32,8 +32,7 @@ void Plant::begin_tick() {
 /// What changed with the tick in hand comes into force.
 void Plant::take_changes() {
   const HardwareState& hardware = state_.hardware;
-  if (const auto* faults = this->faults(); faults && faults->changed_at == tick())
-    set_parameters(*faults);
+  if (const auto* faults = this->faults(); faults && faults->changed_at == tick()) set_parameters(*faults);
   if (hardware.was_asked && !state_.motion.locked) take(span_of(hardware.asked));
 }
 

@@ -86,9 +86,10 @@ void read_near_singular(const Mapping& entry, const Scene& scene, PlantSettings&
   if (settings.automatic || facts(settings.integrator).jacobian)
     throw InputError(
         "out_of_range", said->place,
-        fmt::format("{} takes the linearisation in the declared coordinates, and near_singular: switch leaves "
-                    "them; expected an integrator without a Jacobian, or near_singular: stop",
-                    settings.automatic ? "integrator: auto" : facts(settings.integrator).name));
+        fmt::format(
+            "{} takes the linearisation in the declared coordinates, and near_singular: switch leaves "
+            "them; expected an integrator without a Jacobian, or near_singular: stop",
+            settings.automatic ? "integrator: auto" : facts(settings.integrator).name));
   auto partitions = partitions_of(scene);
   if (partitions.size() == 1)
     throw InputError("out_of_range", said->place,

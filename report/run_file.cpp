@@ -311,7 +311,8 @@ std::optional<LogFacts> read_ticks(RunFile& run, const std::function<void(Tick&)
   std::optional<Mechanism> mechanism;
   if (run.switches)
     run.notes.push_back(
-        "The plant switched coordinates (near_singular): the motors' alone don't say how the other ones stand, "
+        "The plant switched coordinates (near_singular): the motors' alone don't say how the other ones "
+        "stand, "
         "which are left out.");
   else if (run.scene)
     mechanism.emplace(run.scene, run.parameters);

@@ -17,8 +17,8 @@ constexpr std::size_t kMostPartitions = 32;
 constexpr int kPosesAbout = 3;
 constexpr double kMoves = 1e-6;  // of a rate by another coordinate, rad or of the size
 
-/// What an assembled scene was before, its unknowns' guesses where they are; what was found to be linear stays
-/// a formula, which holds whatever is independent.
+/// What an assembled scene was before, its unknowns' guesses where they are; what was found to be linear
+/// stays a formula, which holds whatever is independent.
 Scene unassembled(const Scene& assembled) {
   Scene scene = assembled;
   scene.blocks.clear();
@@ -55,8 +55,8 @@ void refer_to(Scene& scene, int from, int to) {
   });
 }
 
-/// The coordinate that is psi_i and nothing else, in the place of which it is solved; a new one where there is
-/// none.
+/// The coordinate that is psi_i and nothing else, in the place of which it is solved; a new one where there
+/// is none.
 int coordinate_of(Scene& scene, int i) {
   const int psi = Symbols(scene).psi0 + i;
   for (int j = 0; j < scene.m(); ++j) {

@@ -37,7 +37,8 @@ TEST(ClosedMotion, HasTheSameBytesOnABadNetwork) {
     const auto alone = result_of(motion, "simulate");
     const auto lossy = result_of(motion, "run", bad_network(++seed));
     EXPECT_EQ(lossy["trajectory_sha256"], alone["trajectory_sha256"]);
-    for (const char* measure : {"closure_residual", "closure_condition", "switches", "final_psi", "energy_drift"})
+    for (const char* measure :
+         {"closure_residual", "closure_condition", "switches", "final_psi", "energy_drift"})
       EXPECT_EQ(lossy.value(measure, nlohmann::json()), alone.value(measure, nlohmann::json())) << measure;
     EXPECT_GT(lossy["resent"], 0);
   }

@@ -34,7 +34,8 @@ Experiment rocker(std::vector<Override> overrides = {}) {
 
 /// An experiment, its plan and its run.
 struct Simulated {
-  explicit Simulated(Experiment said) : experiment(std::move(said)), plan(make_plan(experiment)), plant(experiment, plan) {
+  explicit Simulated(Experiment said)
+      : experiment(std::move(said)), plan(make_plan(experiment)), plant(experiment, plan) {
     simulate(plant, [](std::int64_t) { return true; });
   }
   const Recorder& record() const { return plant.recorder(); }
@@ -52,7 +53,8 @@ Linkage<Real> bars(Real crank, Real coupler, Real rocker) {
   linkage.bodies[1].centre.arms[0].x = crank;
   linkage.bodies[1].centre.arms[1].x = coupler / 2;
   linkage.bodies[2].centre.arms[0].x = rocker / 2;
-  linkage.loops[0].arms[0].x = crank, linkage.loops[0].arms[1].x = coupler, linkage.loops[0].arms[2].x = -rocker;
+  linkage.loops[0].arms[0].x = crank, linkage.loops[0].arms[1].x = coupler,
+  linkage.loops[0].arms[2].x = -rocker;
   return linkage;
 }
 
@@ -102,19 +104,18 @@ struct Start {
 Start start_of_rocker(Real rate) {
   const Real degree = std::numbers::pi_v<long double> / 180;
   Start start{bars(0.3L, 0.9L, 0.8L), State(3), State(3)};
-  start.q << 60 * degree, -24 * degree, static_cast<Real>(99 * std::numbers::pi / 180);
+  start.q << 113 * degree, -82 * degree, static_cast<Real>(115 * std::numbers::pi / 180);
   start.q = closed_by_rocker(start.linkage, start.q);
   start.qd = rates_by_rocker(start.linkage, start.q, rate);
   return start;
 }
 
+/// Of the rocker's angle at any tick, rad.
 double farthest(const Recorder& record, const std::vector<State>& expected) {
   double most = 0;
-  for (std::int64_t k = 0; k < record.ticks_recorded(); ++k) {
-    const State& x = expected[static_cast<std::size_t>(k)];
-    most = std::max({most, std::abs(record.psi(k)[0] - static_cast<double>(x[2])),
-                     0.1 * std::abs(record.psid(k)[0] - static_cast<double>(x[5]))});
-  }
+  for (std::int64_t k = 0; k < record.ticks_recorded(); ++k)
+    most = std::max(
+        most, std::abs(record.psi(k)[0] - static_cast<double>(expected[static_cast<std::size_t>(k)][2])));
   return most;
 }
 
@@ -125,7 +126,8 @@ TEST(NearSingular, AFourBarGoesThroughItsDeadPointsAsByMultipliers) {
   EXPECT_EQ(measures.ticks, 10000) << measures.no_way_on.value_or("");
   EXPECT_LT(*measures.energy_drift, 1e-12);
   EXPECT_LT(*measures.closure_residual, 1e-14);
-  EXPECT_GE(*measures.switches, 1);
+  EXPECT_EQ(*measures.switches, 1) << "the crank goes round";
+  EXPECT_LT(*measures.closure_condition, 4);
   const Start at = start_of_rocker(2.5L);
   const auto expected = motion_of(at.linkage, at.q, at.qd, 10000, [&](int k, const State&, const State&) {
     return static_cast<Real>(2 * std::sin(3 * (k / 1000.0)));
@@ -137,41 +139,50 @@ TEST(NearSingular, AFourBarGoesThroughItsDeadPointsAsByMultipliers) {
   EXPECT_GT(dead_points, 20);
 }
 
-// The rocker that the crank has by the law of cosines.
-TEST(NearSingular, TheMotionIsTheOneOfTheCrank) {
-  const Simulated by_rocker(rocker({{"controller.torque", "[0 N m]"}, {"expect", "{}"}}));
-  const Start at = start_of_rocker(2.5L);
-  const Simulated by_crank(experiment_named(
-      "four_bar_turns",
-      {{"duration", "10 s"},
-       {"expect", "{}"},
-       {"plant.initial", fmt::format("[{:.17g} rad]", static_cast<double>(at.q[0]))},
-       {"plant.initial_rates", fmt::format("[{:.17g} rad/s]", static_cast<double>(at.qd[0]))}}));
-  double most = 0;
-  for (std::int64_t k = 0; k <= 10000; ++k) {
-    const double crank = by_crank.record().psi(k)[0], x = 0.3 * std::cos(crank) - 1, y = 0.3 * std::sin(crank);
-    const double square = x * x + y * y;
-    const double angle = std::atan2(y, x) - std::acos((square + 0.64 - 0.81) / (1.6 * std::sqrt(square)));
-    most = std::max(most, std::abs(std::remainder(by_rocker.record().psi(k)[0] - angle, 2 * std::numbers::pi)));
-  }
-  EXPECT_LT(most, 1e-10);
-  EXPECT_LT(*by_rocker.measures().energy_drift, 1e-12);
+/// The same motion, let go by the crank.
+Experiment by_crank(const Start& at, std::vector<Override> overrides) {
+  overrides.push_back({"expect", "{}"});
+  overrides.push_back({"plant.initial", fmt::format("[{:.17g} rad]", static_cast<double>(at.q[0]))});
+  overrides.push_back({"plant.initial_rates", fmt::format("[{:.17g} rad/s]", static_cast<double>(at.qd[0]))});
+  return experiment_named("four_bar_turns", overrides);
 }
 
-// rk4 at 1 kHz makes 1e-8 of it, in whatever coordinates.
-TEST(NearSingular, TheErrorFallsAtTheMethodsOrder) {
+/// The rocker's angle by the crank's, with the law of cosines.
+double rocker_of(double crank) {
+  const double x = 0.3 * std::cos(crank) - 1, y = 0.3 * std::sin(crank), square = x * x + y * y;
+  const double angle = std::atan2(y, x) - std::acos((square + 0.64 - 0.81) / (1.6 * std::sqrt(square)));
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+TEST(NearSingular, TheMotionIsTheOneOfTheCrank) {
+  const Simulated run(rocker({{"controller.torque", "[0 N m]"}, {"expect", "{}"}}));
+  const Simulated crank(by_crank(start_of_rocker(2.5L), {{"duration", "10 s"}}));
+  double most = 0;
+  for (std::int64_t k = 0; k <= 10000; ++k)
+    most = std::max(most, std::abs(run.record().psi(k)[0] - rocker_of(crank.record().psi(k)[0])));
+  EXPECT_LT(most, 1e-10);
+  EXPECT_LT(*run.measures().energy_drift, 1e-12);
+}
+
+// A method's error is the one that it makes in the crank's coordinates, and falls as its order says.
+TEST(NearSingular, TheErrorIsTheMethodsOwn) {
   const Start at = start_of_rocker(2.5L);
   const auto expected =
       motion_of(at.linkage, at.q, at.qd, 2000, [](int, const State&, const State&) { return Real(0); });
   std::vector<double> errors;
   for (const char* substeps : {"1", "2"}) {
     const Simulated run(rocker({{"controller.torque", "[0 N m]"},
-                          {"duration", "2 s"},
-                          {"plant.integrator", "rk4"},
-                          {"plant.substeps", substeps}}));
+                                {"duration", "2 s"},
+                                {"plant.integrator", "rk4"},
+                                {"plant.substeps", substeps}}));
     errors.push_back(farthest(run.record(), expected));
   }
-  EXPECT_LT(errors[0], 1e-7);
+  const Simulated crank(by_crank(at, {{"duration", "2 s"}, {"plant.integrator", "rk4"}}));
+  double cranks = 0;
+  for (std::int64_t k = 0; k <= 2000; ++k)
+    cranks = std::max(cranks, std::abs(rocker_of(crank.record().psi(k)[0]) -
+                                       static_cast<double>(expected[static_cast<std::size_t>(k)][2])));
+  EXPECT_LT(errors[0], 2 * cranks) << errors[0] << " by the rocker, " << cranks << " by the crank";
   EXPECT_GT(errors[0] / errors[1], 12) << errors[0] << " " << errors[1];
 }
 
@@ -179,7 +190,7 @@ TEST(NearSingular, TheErrorFallsAtTheMethodsOrder) {
 TEST(NearSingular, ATripleRockerSwitchesToAndFro) {
   const std::vector<Override> overrides{{"scene.constants.ground", "1 m"},
                                         {"scene.constants.short", "0.7 m"},
-                                        {"scene.constants.long", "0.55 m"},
+                                        {"scene.constants.long", "0.65 m"},
                                         {"scene.constants.side", "0.9 m"},
                                         {"scene.home", "{rocker: 110 deg, crank: 60 deg, elbow: -10 deg}"},
                                         {"controller.torque", "[0 N m]"},
@@ -188,9 +199,9 @@ TEST(NearSingular, ATripleRockerSwitchesToAndFro) {
   const Simulated run(rocker(overrides));
   const Measures measures = run.measures();
   EXPECT_EQ(measures.ticks, 6000) << measures.no_way_on.value_or("");
-  EXPECT_GE(*measures.switches, 6);
+  EXPECT_GE(*measures.switches, 20);
   EXPECT_LT(*measures.energy_drift, 1e-11);
-  Start at{bars(0.7L, 0.55L, 0.9L), State(3), State(3)};
+  Start at{bars(0.7L, 0.65L, 0.9L), State(3), State(3)};
   const auto& home = *run.experiment.scene;
   at.q << 0, 0, home.home[0];
   for (const auto& coordinate : home.coordinates) {
@@ -206,9 +217,8 @@ TEST(NearSingular, ATripleRockerSwitchesToAndFro) {
 
 // Drives with friction and a command delay look at the declared coordinate at every stage.
 TEST(NearSingular, DrivesWorkOnTheDeclaredCoordinate) {
-  const Simulated run(rocker({{"duration", "3 s"},
-                        {"expect", "{}"},
-                        {"plant.actuators", "{friction: {viscous: [0.5 N m s]}}"}}));
+  const Simulated run(rocker(
+      {{"duration", "3 s"}, {"expect", "{}"}, {"plant.actuators", "{friction: {viscous: [0.5 N m s]}}"}}));
   ASSERT_EQ(run.measures().ticks, 3000) << run.measures().no_way_on.value_or("");
   const Start at = start_of_rocker(2.5L);
   const auto expected = motion_of(at.linkage, at.q, at.qd, 3000, [&](int k, const State&, const State& qd) {
@@ -237,8 +247,8 @@ TEST(NearSingular, TheTruthIsOfTheMechanism) {
   const Simulated run(rocker({{"duration", "2 s"}}));
   const Start at = start_of_rocker(2.5L);
   const auto torque = [](int k) { return static_cast<Real>(2 * std::sin(3 * (k / 1000.0))); };
-  const auto expected = motion_of(at.linkage, at.q, at.qd, 2000,
-                                  [&](int k, const State&, const State&) { return torque(k); });
+  const auto expected =
+      motion_of(at.linkage, at.q, at.qd, 2000, [&](int k, const State&, const State&) { return torque(k); });
   TruthReader reader(run.experiment, run.record());
   for (const std::int64_t k : {0, 100, 500, 777, 1500, 2000}) {
     const Truth& truth = reader.at(k);
@@ -256,9 +266,10 @@ TEST(NearSingular, TheTruthIsOfTheMechanism) {
 }
 
 TEST(NearSingular, StatesPutBackGiveTheSameBytesAgain) {
-  const Experiment experiment = rocker({{"duration", "3 s"},
-                                        {"plant.actuators", "{time_constant: [2 ms], friction: {viscous: [0.1 N m s]}}"},
-                                        {"expect", "{}"}});
+  const Experiment experiment =
+      rocker({{"duration", "3 s"},
+              {"plant.actuators", "{time_constant: [2 ms], friction: {viscous: [0.1 N m s]}}"},
+              {"expect", "{}"}});
   const Plan plan = make_plan(experiment);
   Plant plant = make_plant(experiment, plan), other = make_plant(experiment, plan);
   const auto course = [](Plant& it, int ticks) {
@@ -307,26 +318,23 @@ TEST(NearSingular, TicksAllocateNothing) {
 }
 
 TEST(NearSingular, StopsThereUnlessToldToSwitch) {
-  for (const char* stop : {"stop", "~"}) {
-    const Simulated run(rocker({{"plant.near_singular", stop}}));
-    const Measures measures = run.measures();
-    ASSERT_TRUE(measures.no_way_on);
-    EXPECT_THAT(*measures.no_way_on, HasSubstr("the closure 'loop'"));
-    EXPECT_LT(*measures.diverged_at, 1);
-    EXPECT_FALSE(measures.switches);
-    if (std::string_view(stop) == "~") break;
-  }
+  const Simulated run(rocker({{"plant.near_singular", "stop"}}));
+  const Measures measures = run.measures();
+  ASSERT_TRUE(measures.no_way_on);
+  EXPECT_THAT(*measures.no_way_on, HasSubstr("the closure 'loop'"));
+  EXPECT_LT(*measures.diverged_at, 1);
+  EXPECT_FALSE(measures.switches);
 }
 
 // Crank and ground are as long as coupler and rocker together: where all lie in a line, no three angles of it
 // say how it goes on.
 TEST(NearSingular, StopsWhereNoCoordinatesHelp) {
   const Simulated run(rocker({{"scene.constants.long", "0.8 m"},
-                        {"scene.constants.side", "0.5 m"},
-                        {"scene.home", "{rocker: 140 deg, crank: 100 deg, elbow: -60 deg}"},
-                        {"controller.torque", "[0 N m]"},
-                        {"expect", "{}"},
-                        {"plant.initial_rates", "[6 rad/s]"}}));
+                              {"scene.constants.side", "0.5 m"},
+                              {"scene.home", "{rocker: 140 deg, crank: 100 deg, elbow: -60 deg}"},
+                              {"controller.torque", "[0 N m]"},
+                              {"expect", "{}"},
+                              {"plant.initial_rates", "[6 rad/s]"}}));
   const Measures measures = run.measures();
   ASSERT_TRUE(measures.no_way_on);
   EXPECT_THAT(*measures.no_way_on, HasSubstr("rocker = "));
@@ -341,13 +349,19 @@ TEST(NearSingular, RefusesWhatItCannotServe) {
     const char *code, *why;
   };
   const Override switches{"plant.near_singular", "switch"};
-  for (const Row& row : {
-           Row{"four_bar_rocker_turns", {{"plant.integrator", "rodas4"}}, "out_of_range", "rodas4 takes the linearisation"},
-           Row{"four_bar_rocker_turns", {{"plant.integrator", "auto"}}, "out_of_range", "integrator: auto takes"},
-           Row{"four_bar_rocker_turns", {{"plant.near_singular", "jump"}}, "unknown_value", "stop, switch"},
-           Row{"four_bar_path", {switches}, "out_of_range", "a path is planned"},
-           Row{"four_bar_swing", {switches}, "out_of_range", "near_singular is of closures"},
-           Row{"double_four_bar_closed", {switches}, "out_of_range", "near_singular is of closures"}}) {
+  for (const Row& row :
+       {Row{"four_bar_rocker_turns",
+            {{"plant.integrator", "rodas4"}},
+            "out_of_range",
+            "rodas4 takes the linearisation"},
+        Row{"four_bar_rocker_turns",
+            {{"plant.integrator", "auto"}},
+            "out_of_range",
+            "integrator: auto takes"},
+        Row{"four_bar_rocker_turns", {{"plant.near_singular", "jump"}}, "unknown_value", "'stop', 'switch'"},
+        Row{"four_bar_path", {switches}, "out_of_range", "a path is planned"},
+        Row{"four_bar_swing", {switches}, "out_of_range", "near_singular is of closures"},
+        Row{"double_four_bar_closed", {switches}, "out_of_range", "near_singular is of closures"}}) {
     const auto error = input_error([&] { experiment_named(row.experiment, row.overrides); });
     ASSERT_TRUE(error) << row.why;
     EXPECT_EQ(error->code, row.code);
