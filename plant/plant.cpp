@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plant/tick.hpp"
 
 namespace mixloop {
@@ -44,13 +46,14 @@ Plant::Plant(Equations::Workspace dynamics, const PlantSettings& settings, doubl
   if (settings.partitions) {
     partitions_.emplace(settings.partitions, equations().evaluation(),
                         std::initializer_list<Purpose>{Purpose::forward_dynamics}, options_of(settings),
-                        parameters_of(settings, equations().scene()));
+                        parameters_of(settings, declared()));
     state_.loops = stage_ = partitions_->motion();
-    state_.anchor.reserve(partitions_->longest_anchor());
   }
+  state_.anchor.resize(partitions_ ? partitions_->longest_anchor()
+                                   : ideal_.dynamics().closures().anchor().size());
   follow_closures();
   if (!Hardware::needed(settings)) return;
-  hardware_.emplace(settings, ideal_.dynamics().scene(), rate_hz);
+  hardware_.emplace(settings, declared(), rate_hz);
   state_.hardware = hardware_->state();
   begin_tick();
 }
@@ -61,7 +64,8 @@ void Plant::put_back(const PlantState& state) {
     stage_.partition = state.loops.partition;
   }
   state_ = state;
-  if (auto& closures = ideal_.dynamics().closures()) closures.put_back(state_.anchor);
+  if (auto& closures = ideal_.dynamics().closures())
+    closures.put_back(std::span(state_.anchor).first(closures.anchor().size()));
   if (const auto* faults = this->faults()) set_parameters(*faults);
 }
 
@@ -77,8 +81,8 @@ void Plant::follow_closures() {
   if (!closures) return;
   is_closed_ = closures.accept(state_.motion.psi(), time()) == Status::ok;
   if (partitions_) follow_partitions();
-  const auto anchor = ideal_.dynamics().closures().anchor();
-  state_.anchor.assign(anchor.begin(), anchor.end());
+  const auto anchor = closures.anchor();
+  std::fill(std::copy(anchor.begin(), anchor.end(), state_.anchor.begin()), state_.anchor.end(), 0.0);
 }
 
 std::optional<ClosureWatch> Plant::closures() const {
@@ -91,7 +95,7 @@ std::string Plant::no_way_on() const {
   const auto watch = closures();
   if (!watch || (is_closed_ && !watch->is_singular())) return {};
   const Scene& scene = equations().scene();
-  const auto& independent = partitions_ ? partitions_->declared().independent : scene.independent;
+  const auto& independent = declared().independent;
   const auto& block = scene.blocks[watch->worst()];
   std::string pose;
   for (std::size_t i = 0; i < independent.size(); ++i)

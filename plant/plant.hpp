@@ -111,6 +111,7 @@ class Plant {
   void begin_tick();
   void follow_closures();
   bool is_switched() const { return state_.loops.partition > 0; }
+  const Scene& declared() const { return partitions_ ? partitions_->declared() : equations().scene(); }
   void follow_partitions();
   int best_partition(const ClosureWatch& watch);
   void go_over_to(int partition);

@@ -15,8 +15,7 @@ bool Plant::measure(std::span<double> psi_out, std::span<double> psid_out) {
 }
 
 bool Plant::inject(const Fault& fault) {
-  if (!faults_may_come_ ||
-      !hardware_->faults->inject(state_.hardware.faults, fault, ideal_.dynamics().scene(), tick()))
+  if (!faults_may_come_ || !hardware_->faults->inject(state_.hardware.faults, fault, declared(), tick()))
     return false;
   take_changes();
   return true;

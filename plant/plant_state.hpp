@@ -46,9 +46,11 @@ struct HardwareState {
 struct PlantState {
   IdealState<double> motion;  ///< in the partition in use
   HardwareState hardware;
-  std::vector<double> anchor;  ///< where closures are solved from (ClosureFollower); empty where none are
-  LoopMotion loops;            ///< at the tick; empty where no coordinates are switched
-  std::int64_t switches = 0;   ///< of them, until the tick
+  /// Where closures are solved from (ClosureFollower), as long as the longest of all partitions; empty where
+  /// none are.
+  std::vector<double> anchor;
+  LoopMotion loops;           ///< at the tick; empty where no coordinates are switched
+  std::int64_t switches = 0;  ///< of them, until the tick
 
   bool operator==(const PlantState&) const = default;
 };
