@@ -52,7 +52,7 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_wo
   if (tells_energy && other_work_in(experiment).empty()) {
     measures_.energy_drift = kNeverMeasured;
     if (knows_work && loops_ > 0)
-      switched_energy_.emplace(experiment.plant.partitions, experiment.evaluation,
+      switched_energy_.emplace(experiment.plant.partitions, told_by(experiment),
                                std::initializer_list<Purpose>{Purpose::energy}, Equations::Options{},
                                experiment.plant_parameters);
     else if (knows_work)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -11,6 +12,12 @@
 #include "notation/sha256.hpp"
 
 namespace mixloop {
+
+/// How what is told of a tick is evaluated where coordinates are switched: a program for each partition is
+/// quickly interpreted, and long in compiling; the bits are the same.
+inline Evaluation told_by(const Experiment& experiment) {
+  return std::min(experiment.evaluation, Evaluation::interpreter);
+}
 
 /// Keeps a run, tick by tick, and judges it. Nothing allocates after construction.
 class Recorder {

@@ -11,11 +11,11 @@ std::size_t gives(Purpose purpose, const Experiment& experiment) {
 }  // namespace
 
 TruthReader::Switched::Switched(const Experiment& experiment, Equations::Options options)
-    : dynamics(experiment.plant.partitions, experiment.evaluation,
+    : dynamics(experiment.plant.partitions, told_by(experiment),
                {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy}, options,
                experiment.plant_parameters),
       showing(std::make_shared<const std::vector<Partition>>(showing_swapped(*experiment.plant.partitions)),
-              experiment.evaluation, {Purpose::end_effector}, {}, experiment.plant_parameters),
+              told_by(experiment), {Purpose::end_effector}, {}, experiment.plant_parameters),
       motion(dynamics.motion()) {}
 
 TruthReader::TruthReader(const Experiment& experiment, const Recorder& recorder)
