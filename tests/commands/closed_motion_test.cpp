@@ -44,5 +44,12 @@ TEST(ClosedMotion, HasTheSameBytesOnABadNetwork) {
   }
 }
 
+// The motors' coordinates, which messages have, don't say where the others are.
+TEST(ClosedMotion, ThatSwitchesCoordinatesIsNotDrawn) {
+  Command view({bin("mixloop"), "view", experiment("four_bar_rocker_turns"), "--json", "--port", "0"});
+  EXPECT_EQ(view.wait(), 2);
+  EXPECT_EQ(view.json()["error"]["code"], "switched_coordinates");
+}
+
 }  // namespace
 }  // namespace mixloop
