@@ -36,6 +36,7 @@ std::unique_ptr<Source> source_of(ViewLine& options) {
       throw InputError("command_line", {"--experiment"},
                        "is for a log; the experiment of a live run is named already");
     const Experiment experiment = load_experiment(std::filesystem::path(options.what), options.overrides());
+    if (experiment.plant.partitions) refuse_switched({options.what});
     return std::make_unique<BusSource>(options.bus, experiment, config_of(common_ground(experiment)));
   }
   options.read.prefix = options.bus.prefix;

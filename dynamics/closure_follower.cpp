@@ -39,17 +39,47 @@ ClosureFollower::ClosureFollower(std::shared_ptr<const Scene> scene, const Routi
                  sizes_.corrections);
 }
 
-void ClosureFollower::set_parameters(std::span<const double> parameters) {
-  std::size_t at = 0;
-  const auto put = [&](double number) { anchor_[at++] = number; };
-  for (int j : scene_->started) {
-    const double home = scene_->coordinates[static_cast<std::size_t>(j)].home;
-    put(home);
-    if (scene_->turns(j)) put(mixloop_functions::cos(home)), put(mixloop_functions::sin(home));
+void ClosureFollower::stand(std::span<const double> psi, double t, std::span<const double> at) noexcept {
+  double* to = anchor_.data();
+  for (std::size_t s = 0; s < sizes_.started; ++s) {
+    *to++ = at[s];
+    if (scene_->turns(scene_->started[s])) *to++ = mixloop_functions::cos(at[s]), *to++ = mixloop_functions::sin(at[s]);
   }
-  for (std::size_t i = 0; i < sizes_.started * (sizes_.n + 1); ++i) put(0);
-  for (double home : scene_->home) put(home);
-  put(0);
+  to = std::fill_n(to, sizes_.started * (sizes_.n + 1), 0.0);
+  to = std::copy_n(psi.begin(), sizes_.n, to);
+  *to = t;
+}
+
+void ClosureFollower::read(const double* solution, const double* rates, std::span<const double> psid,
+                           const Motion& motion) const noexcept {
+  for (std::size_t s = 0; s < sizes_.started; ++s, rates += sizes_.n + 1) {
+    motion.at[s] = *solution;
+    solution += scene_->turns(scene_->started[s]) ? 3 : 1;
+    double rate = rates[sizes_.n];
+    for (std::size_t i = 0; i < sizes_.n; ++i) rate += rates[i] * psid[i];
+    motion.rate[s] = rate;
+  }
+}
+
+void ClosureFollower::look(std::span<const double> psid, const Motion& motion) const noexcept {
+  read(anchor_.data(), anchor_.data() + sizes_.start, psid, motion);
+}
+
+Status ClosureFollower::look_ahead(std::span<const double> psi, std::span<const double> psid, double t,
+                                   const Motion& motion) noexcept {
+  predict(psi, t, 0);
+  const std::size_t gives = watched_.size();
+  const Status status = solve(closures_, {psi, {}, {}, t}, 0, gives);
+  read(output_.data() + gives, output_.data(), psid, motion);
+  if (status == Status::ok) return status;
+  for (double& rate : motion.rate) rate = std::numeric_limits<double>::quiet_NaN();
+  return Status::not_closed;
+}
+
+void ClosureFollower::set_parameters(std::span<const double> parameters) {
+  std::vector<double> home;
+  for (int j : scene_->started) home.push_back(scene_->coordinates[static_cast<std::size_t>(j)].home);
+  stand(scene_->home, 0, home);
   // From the defaults in steps, each from the one before.
   const std::vector<double> defaults = scene_->default_parameters();
   constexpr int kSteps = 16;

@@ -51,6 +51,19 @@ class ClosureFollower {
   std::span<const double> anchor() const { return anchor_; }
   void put_back(std::span<const double> anchor) noexcept;
 
+  /// Where started coordinates are, wound angles and lengths, and how fast, as many each.
+  struct Motion {
+    std::span<double> at, rate;
+  };
+  std::size_t started() const { return sizes_.started; }
+  /// The anchor stands at a pose that closes, with its started coordinates there.
+  void stand(std::span<const double> psi, double t, std::span<const double> at) noexcept;
+  /// That of the started coordinates at the anchor, where psi move with psid.
+  void look(std::span<const double> psid, const Motion& motion) const noexcept;
+  /// The same at a pose near the anchor, which stays. Not finite where it can't be reached.
+  Status look_ahead(std::span<const double> psi, std::span<const double> psid, double t,
+                    const Motion& motion) noexcept;
+
   /// Accepts a pose. Status::not_closed, the anchor as it was, where it can't be reached.
   Status accept(std::span<const double> psi, double t) noexcept;
   /// At the last pose that was accepted.
@@ -72,6 +85,8 @@ class ClosureFollower {
   /// the scene's size.
   double predict(std::span<const double> psi, double t, std::size_t from) noexcept;
   Status step(std::span<const double> psi, double t) noexcept;
+  void read(const double* solution, const double* rates, std::span<const double> psid,
+            const Motion& motion) const noexcept;
   /// Of an evaluation that failed: the closures, or what rests on them.
   Status cause_of(Status status, const Arguments& at) noexcept;
   double way_to(std::span<const double> psi, double t) const noexcept;

@@ -14,7 +14,8 @@ namespace mixloop {
 /// How exact W is: it is integrated along with the motion by the same method (with Rosenbrock's it is the
 /// torque times the way), so of a torque that is held it is tau . (psi(k+1) - psi(k)) to rounding, whatever
 /// the steps are; of a torque that varies within a tick (control: continuous, drives with a lag, friction or
-/// ripple) it is as exact as the method is. Rounding adds some 1e-16 of |W| a tick.
+/// ripple), and in coordinates that were switched to, it is as exact as the method is. Rounding adds some
+/// 1e-16 of |W| a tick.
 std::string other_work_in(const Experiment& experiment);
 
 }  // namespace mixloop

@@ -24,6 +24,10 @@ void check_motion(const Experiment& experiment, const NodePtr& controller, const
   };
   const ControllerSettings& settings = experiment.controller;
   if (experiment.has_path()) {
+    if (experiment.plant.partitions)
+      refuse(plant, "near_singular",
+             "a path is planned, and followed, in the declared coordinates, which near_singular: switch "
+             "leaves; expected it beside a duration alone, or near_singular: stop");
     if (!experiment.plant.initial_psid.empty())
       refuse(plant, "initial_rates",
              "a path begins at rest, and so does the move to its start; expected initial_rates beside a "

@@ -27,8 +27,11 @@ struct Measures {
   std::optional<double> diverged_at;  ///< s
   std::optional<std::string>
       no_way_on;  ///< why it diverged, where closures ended it: which, when, in which pose
-  std::optional<double> closure_residual;   ///< m or rad, the largest; where chains close
-  std::optional<double> closure_condition;  ///< the worst of all blocks and ticks, 1 at best (trace.hpp)
+  std::optional<double> closure_residual;  ///< m or rad, the largest; where chains close
+  /// The worst of all blocks and ticks, 1 at best (trace.hpp); where coordinates are switched of those in
+  /// use.
+  std::optional<double> closure_condition;
+  std::optional<std::int64_t> switches;  ///< to other independent coordinates, where they are switched
   std::optional<double> safe_at;         ///< s: from there on the plant was in its safe state, and not judged
   std::optional<double> interrupted_at;  ///< s
   std::optional<Vector> final_psi;       ///< n, at the last tick; without a path, or where it is expected

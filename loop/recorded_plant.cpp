@@ -15,8 +15,7 @@ const Experiment& checked(const Experiment& experiment, const Plan& plan) {
 }
 
 double record_bytes(const Experiment& experiment, const Plan& plan) {
-  return static_cast<double>(plan.ticks() + 3) *
-         static_cast<double>(Recorder::bytes_a_tick(*experiment.scene));
+  return static_cast<double>(plan.ticks() + 3) * static_cast<double>(Recorder::bytes_a_tick(experiment));
 }
 
 /// "the record of ... takes ... GB".
@@ -90,6 +89,9 @@ bool RecordedPlant::record_state() {
       return recorder_.no_way_on(plant().tick(), std::move(why));
     recorder_.closures(*watch);
   }
+  if (const LoopMotion* loops = plant().loops())
+    return recorder_.state(plant().tick(), plant().psi(), plant().psid(), plant().work(), *loops,
+                           plant().switches());
   return recorder_.state(plant().tick(), plant().psi(), plant().psid(), plant().work());
 }
 

@@ -11,11 +11,25 @@
 namespace mixloop {
 namespace {
 
+/// The numbers of a LoopMotion.
+std::size_t loop_numbers(const Experiment& experiment) {
+  const auto& partitions = experiment.plant.partitions;
+  if (!partitions) return 0;
+  const Scene& declared = *partitions->front().scene;
+  return 1 + 2 * (declared.started.size() + declared.independent.size());
+}
+
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
 }  // namespace
+
+std::size_t Recorder::bytes_a_tick(const Experiment& experiment) {
+  const Scene& scene = *experiment.scene;
+  return sizeof(double) *
+         (2 * scene.independent.size() + 2 * scene.motors().size() + 1 + loop_numbers(experiment));
+}
 
 Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_work)
     : plan_(plan),
@@ -24,6 +38,7 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_wo
       axes_(experiment.scene->end_effector.axes),
       n_(experiment.scene->independent.size()),
       n_u_(experiment.scene->motors().size()),
+      loops_(loop_numbers(experiment)),
       rate_hz_(experiment.rate_hz),
       limit_(experiment.position_error_limit),
       rows_(static_cast<std::size_t>(plan.ticks() + 3) * width(), free_memory()),
@@ -36,9 +51,14 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_wo
   const bool tells_energy = !plan.has_path() || experiment.expect.bounds_on("energy_drift");
   if (tells_energy && other_work_in(experiment).empty()) {
     measures_.energy_drift = kNeverMeasured;
-    if (knows_work)
+    if (knows_work && loops_ > 0)
+      switched_energy_.emplace(experiment.plant.partitions, told_by(experiment),
+                               std::initializer_list<Purpose>{Purpose::energy}, Equations::Options{},
+                               experiment.plant_parameters);
+    else if (knows_work)
       energy_.emplace(equations_of(experiment.scene, experiment.evaluation, {Purpose::energy}),
                       experiment.plant_parameters);
+    if (switched_energy_) hand_loops_ = switched_energy_->motion();
   }
   const auto& parameters = experiment.plant_parameters;
   conditions_.insert(conditions_.end(), parameters.begin(), parameters.end());
@@ -80,8 +100,26 @@ bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<cons
   double* to = row(k);
   std::copy(psi.begin(), psi.end(), to);
   std::copy(psid.begin(), psid.end(), to + n_);
-  to[width() - 1] = work;
+  to[2 * n_ + 2 * n_u_] = work;
   return true;
+}
+
+bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work,
+                     const LoopMotion& loops, std::int64_t switches) {
+  if (!state(k, psi, psid, work)) return false;
+  double* to = row(k) + 2 * n_ + 2 * n_u_ + 1;
+  *to++ = loops.partition;
+  to = std::copy(loops.at.begin(), loops.at.end(), to);
+  std::copy(loops.rate.begin(), loops.rate.end(), to);
+  measures_.switches = switches;
+  return true;
+}
+
+void Recorder::loops(std::int64_t k, LoopMotion& motion) const {
+  const double* from = row(k) + 2 * n_ + 2 * n_u_ + 1;
+  motion.partition = static_cast<int>(*from++);
+  std::copy_n(from, motion.at.size(), motion.at.data());
+  std::copy_n(from + motion.at.size(), motion.rate.size(), motion.rate.data());
 }
 
 void Recorder::closures(const ClosureWatch& watch) {
@@ -112,7 +150,7 @@ void Recorder::measure(std::int64_t k, std::span<const double> tau) {
     double& most = measures_.max_torque[static_cast<Eigen::Index>(i)];
     if (!(std::abs(tau[i]) <= most)) most = std::abs(tau[i]);
   }
-  if (energy_) measure_energy(k);
+  if (energy_ || switched_energy_) measure_energy(k);
   if (!plan_.has_path() || k < plan_.start_tick()) return;
   if (!(error_ <= measures_.max_position_error)) {
     measures_.max_position_error = error_;
@@ -126,7 +164,12 @@ void Recorder::measure(std::int64_t k, std::span<const double> tau) {
 /// (E - E_0 - W) at its largest, over E at its largest.
 void Recorder::measure_energy(std::int64_t k) {
   double parts[2];
-  energy_->evaluate(Purpose::energy, {.psi = psi(k), .psid = psid(k), .t = time(k)}, parts);
+  if (switched_energy_) {
+    loops(k, hand_loops_);
+    switched_energy_->evaluate(Purpose::energy, hand_loops_, {}, time(k), parts);
+  } else {
+    energy_->evaluate(Purpose::energy, {.psi = psi(k), .psid = psid(k), .t = time(k)}, parts);
+  }
   const double energy = parts[0] + parts[1];
   if (!std::exchange(energy_begun_, true)) first_energy_ = energy - work(k);
   largest_energy_ = std::max(largest_energy_, std::abs(energy));

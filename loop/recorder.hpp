@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -12,6 +13,12 @@
 
 namespace mixloop {
 
+/// How what is told of a tick is evaluated where coordinates are switched: a program for each partition is
+/// quickly interpreted, and long in compiling; the bits are the same.
+inline Evaluation told_by(const Experiment& experiment) {
+  return std::min(experiment.evaluation, Evaluation::interpreter);
+}
+
 /// Keeps a run, tick by tick, and judges it. Nothing allocates after construction.
 class Recorder {
  public:
@@ -19,14 +26,15 @@ class Recorder {
   Recorder(const Experiment& experiment, const Plan& plan, bool knows_work = true);
 
   /// What the record takes, all its ticks alike.
-  static std::size_t bytes_a_tick(const Scene& scene) {
-    return sizeof(double) * (2 * scene.independent.size() + 2 * scene.motors().size() + 1);
-  }
+  static std::size_t bytes_a_tick(const Experiment& experiment);
 
   /// Takes the state at tick k and the work done until then. False where the run has diverged: the position
   /// error is past its limit or something is not finite; then the tick is not recorded. Ticks past the plan's
   /// end (a plant that holds on) are watched, and the last two of them kept.
   bool state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work);
+  /// The same where coordinates are switched, and how often they were until then.
+  bool state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work,
+             const LoopMotion& loops, std::int64_t switches);
   /// What is watched of the closures at a tick.
   void closures(const ClosureWatch& watch);
   /// The mechanism can't go on from tick k, and why: false.
@@ -47,7 +55,9 @@ class Recorder {
   std::span<const double> psid(std::int64_t k) const { return {row(k) + n_, n_}; }
   std::span<const double> commanded(std::int64_t k) const { return {row(k) + 2 * n_, n_u_}; }
   std::span<const double> applied(std::int64_t k) const { return {row(k) + 2 * n_ + n_u_, n_u_}; }
-  double work(std::int64_t k) const { return row(k)[width() - 1]; }
+  double work(std::int64_t k) const { return row(k)[2 * n_ + 2 * n_u_]; }
+  /// How the loops moved at a tick, into what has room for it; of a run that switches coordinates.
+  void loops(std::int64_t k, LoopMotion& motion) const;
   double time(std::int64_t k) const { return static_cast<double>(k) / rate_hz_; }
   /// The scene's parameters and the factor on its friction at a tick.
   struct Conditions {
@@ -67,7 +77,7 @@ class Recorder {
     return rows_.data() + static_cast<std::size_t>(slot) * width();
   }
   double* row(std::int64_t k) { return const_cast<double*>(std::as_const(*this).row(k)); }
-  std::size_t width() const { return 2 * n_ + 2 * n_u_ + 1; }
+  std::size_t width() const { return 2 * n_ + 2 * n_u_ + 1 + loops_; }
   bool judged(std::int64_t k) const { return k < safe_from_; }
   void measure(std::int64_t k, std::span<const double> tau);
   void measure_energy(std::int64_t k);
@@ -78,14 +88,17 @@ class Recorder {
   Equations::Workspace kinematics_;
   std::vector<int> axes_;
   std::size_t n_, n_u_;
+  std::size_t loops_;  ///< numbers of a LoopMotion; 0 where no coordinates are switched
   double rate_hz_, limit_;
-  RecordRows rows_;  ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work
+  RecordRows rows_;  ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work, loops
   /// Changes kept of injected faults; past them the latest one stands for those before it.
   static constexpr std::size_t kInjectedKept = 1000;
   std::size_t row_of_conditions_ = 0;
   std::vector<double> conditions_;  ///< rows of tick, friction, parameters: as it began, then each change
   std::vector<double> zero_, hand_;
-  std::optional<Equations::Workspace> energy_;                            ///< none: it isn't measured
+  std::optional<Equations::Workspace> energy_;  ///< none: it isn't measured
+  std::optional<Partitions> switched_energy_;   ///< where coordinates are switched
+  LoopMotion hand_loops_;
   double first_energy_ = 0, largest_energy_ = 0, largest_imbalance_ = 0;  ///< J
   bool energy_begun_ = false, energy_changed_ = false;                    ///< changed: by a fault
   bool tells_final_ = false;

@@ -131,6 +131,8 @@ std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& pl
 
 std::vector<std::string> review(const Experiment& experiment, const Plan& plan, const Recorder& record) {
   if (record.ticks_recorded() == 0) return {};
+  // Where coordinates are switched, the declared ones' linearisation and M need not exist.
+  if (experiment.plant.partitions) return jump_warnings(experiment, record);
   std::vector<std::string> said = step_warnings(experiment, plan, record);
   if (said.empty()) said = choice_warnings(experiment, record);
   for (auto& more : {jump_warnings(experiment, record), singular_warnings(experiment, record)})

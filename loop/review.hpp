@@ -21,7 +21,7 @@ std::optional<StepDoubt> step_doubt(const Experiment& experiment, const Plan& pl
 
 /// What is to be said of a run that is over and was not to be foreseen: steps too coarse for the states that
 /// the plant really met; a local error beyond what `integrator: auto` was asked for; an angle that jumped; a
-/// mass matrix that was singular where the run ended.
+/// mass matrix that was singular where the run ended. Of a run that switches coordinates, jumps alone.
 std::vector<std::string> review(const Experiment& experiment, const Plan& plan, const Recorder& record);
 
 }  // namespace mixloop

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "dynamics/partitions.hpp"
 #include "loop/recorder.hpp"
 
 namespace mixloop {
@@ -21,10 +22,23 @@ class TruthReader {
   const Truth& at(std::int64_t k);
 
  private:
+  /// Of a run that switches coordinates.
+  struct Switched {
+    Switched(const Experiment& experiment, Equations::Options options);
+
+    Partitions dynamics, showing;  ///< what moves, and the swapped psi_i on a slide
+    LoopMotion motion;
+  };
+  void evaluate(Purpose purpose, std::int64_t k, std::span<const double> input, std::span<double> outputs);
+  void take_conditions(std::int64_t k);
+  void show_swapped(std::int64_t k);
+
   const Recorder& recorder_;
-  Equations::Workspace dynamics_;
+  std::shared_ptr<const std::vector<Partition>> partitions_;
+  std::optional<Equations::Workspace> dynamics_;
+  std::optional<Switched> switched_;  ///< one of the two
   std::int64_t conditions_since_ = -1;
-  std::vector<double> hand_;
+  std::vector<double> hand_, zdd_;
   Truth truth_;
 };
 

@@ -3,13 +3,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plant/tick.hpp"
 
 namespace mixloop {
+namespace {
+
+Equations::Options options_of(const PlantSettings& settings) {
+  return {.friction_factor = settings.faults.change_friction()};
+}
+
+}  // namespace
 
 std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
                                                  const PlantSettings& settings) {
-  const Equations::Options options{.friction_factor = settings.faults.change_friction()};
+  const Equations::Options options = options_of(settings);
+  if (settings.partitions) scene = settings.partitions->front().scene;
   if (!facts(settings.integrator).jacobian)
     return equations_of(std::move(scene), how, {Purpose::forward_dynamics}, options);
   return equations_of(std::move(scene), how, {Purpose::forward_dynamics, Purpose::linearisation}, options);
@@ -21,7 +31,8 @@ struct Plant::Drives {
 
   void take(IdealState<double>&, std::span<const double> tau) const { plant.take(tau); }
   void integrate(IdealState<double>& motion, double t, double length) const {
-    plant.hardware_ ? plant.integrate_driven(t, length) : plant.ideal_.integrate(motion, t, length);
+    plant.hardware_ || plant.is_switched() ? plant.integrate_driven(t, length)
+                                           : plant.ideal_.integrate(motion, t, length);
   }
 };
 
@@ -32,18 +43,35 @@ Plant::Plant(Equations::Workspace dynamics, const PlantSettings& settings, doubl
       faults_may_come_(settings.faults.injected),
       state_{.motion = state_at(model(), psi0, psid0)} {
   ideal_.dynamics().hold_anchor();
+  if (settings.partitions) {
+    partitions_.emplace(settings.partitions, equations().evaluation(),
+                        std::initializer_list<Purpose>{Purpose::forward_dynamics}, options_of(settings),
+                        parameters_of(settings, declared()));
+    state_.loops = stage_ = partitions_->motion();
+  }
+  state_.anchor.resize(partitions_ ? partitions_->longest_anchor()
+                                   : ideal_.dynamics().closures().anchor().size());
   follow_closures();
   if (!Hardware::needed(settings)) return;
-  hardware_.emplace(settings, ideal_.dynamics().scene(), rate_hz);
+  hardware_.emplace(settings, declared(), rate_hz);
   state_.hardware = hardware_->state();
   begin_tick();
 }
 
 void Plant::put_back(const PlantState& state) {
+  if (partitions_) {
+    partitions_->exchange(ideal_.dynamics(), state.loops.partition);
+    stage_.partition = state.loops.partition;
+  }
   state_ = state;
-  if (auto& closures = ideal_.dynamics().closures()) closures.put_back(state_.anchor);
-  if (const auto* faults = this->faults())
-    ideal_.dynamics().set_parameters(faults->parameters, faults->friction);
+  if (auto& closures = ideal_.dynamics().closures())
+    closures.put_back(std::span(state_.anchor).first(closures.anchor().size()));
+  if (const auto* faults = this->faults()) set_parameters(*faults);
+}
+
+void Plant::set_parameters(const Faults::State& faults) {
+  ideal_.dynamics().set_parameters(faults.parameters, faults.friction);
+  if (partitions_) partitions_->set_parameters(faults.parameters, faults.friction);
 }
 
 // At every tick, and nowhere else: all stages and the Jacobian of a tick start from its beginning, so that
@@ -51,8 +79,10 @@ void Plant::put_back(const PlantState& state) {
 void Plant::follow_closures() {
   auto& closures = ideal_.dynamics().closures();
   if (!closures) return;
-  is_closed_ = closures.accept(psi(), time()) == Status::ok;
-  state_.anchor.assign(closures.anchor().begin(), closures.anchor().end());
+  is_closed_ = closures.accept(state_.motion.psi(), time()) == Status::ok;
+  if (partitions_) follow_partitions();
+  const auto anchor = closures.anchor();
+  std::fill(std::copy(anchor.begin(), anchor.end(), state_.anchor.begin()), state_.anchor.end(), 0.0);
 }
 
 std::optional<ClosureWatch> Plant::closures() const {
@@ -65,10 +95,11 @@ std::string Plant::no_way_on() const {
   const auto watch = closures();
   if (!watch || (is_closed_ && !watch->is_singular())) return {};
   const Scene& scene = equations().scene();
+  const auto& independent = declared().independent;
   const auto& block = scene.blocks[watch->worst()];
   std::string pose;
-  for (std::size_t i = 0; i < scene.independent.size(); ++i)
-    pose += fmt::format(", {} = {:.6g}", scene.independent[i].name, psi()[i]);
+  for (std::size_t i = 0; i < independent.size(); ++i)
+    pose += fmt::format(", {} = {:.6g}", independent[i].name, psi()[i]);
   return fmt::format(
       "the closure '{}' {} at {:.6g} s{} (condition {:.3g})",
       scene.closures[static_cast<std::size_t>(block.rows[0].closure)].name,
@@ -95,12 +126,15 @@ void Plant::finish_tick() {
 void Plant::lock() {
   const auto n = static_cast<Eigen::Index>(model().n);
   state_.motion.x.segment(n, n).setZero();
+  state_.loops.rate.setZero();
   state_.motion.applied.setZero();
   state_.motion.locked = true;
 }
 
-void Plant::acceleration(std::span<double> psidd) {
-  ideal_.dynamics().evaluate(Purpose::forward_dynamics, {psi(), psid(), applied(), time()}, psidd);
+void Plant::acceleration(std::span<double> zdd) {
+  const auto& motion = state_.motion;
+  ideal_.dynamics().evaluate(Purpose::forward_dynamics, {motion.psi(), motion.psid(), applied(), time()},
+                             zdd);
 }
 
 void Plant::take(std::span<const double> tau) {

@@ -6,12 +6,13 @@
 #include <span>
 
 #include "dynamics/equations.hpp"
+#include "dynamics/partitions.hpp"
 #include "plant/hardware.hpp"
 #include "plant/ideal_plant.hpp"
 
 namespace mixloop {
 
-/// The equations that a plant of these settings evaluates.
+/// The equations that a plant of these settings evaluates, at first.
 std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
                                                  const PlantSettings& settings);
 
@@ -31,8 +32,14 @@ class Plant {
 
   std::int64_t tick() const { return state_.motion.tick; }
   double time() const { return model().time(tick()); }  ///< t_k = k / rate
-  std::span<const double> psi() const { return state_.motion.psi(); }
-  std::span<const double> psid() const { return state_.motion.psid(); }
+  /// As declared, whichever coordinates are in use: at tick(), or where none are switched where take_effect
+  /// left it.
+  std::span<const double> psi() const {
+    return is_switched() ? partitions_->psi(state_.loops) : state_.motion.psi();
+  }
+  std::span<const double> psid() const {
+    return is_switched() ? partitions_->psid(state_.loops) : state_.motion.psid();
+  }
   /// The work that the motors have done, J: the integral of tau . psi' over them.
   double work() const { return state_.motion.work(); }
   /// What acts from time() on (n_u), after delay, saturation and what the drives make of it, N m or N.
@@ -87,9 +94,15 @@ class Plant {
   /// Empty where it can.
   std::string no_way_on() const;
 
+  /// How the loops move at tick(), and how often other coordinates were switched to; null and 0 where none
+  /// are to be.
+  const LoopMotion* loops() const { return partitions_ ? &state_.loops : nullptr; }
+  std::int64_t switches() const { return state_.switches; }
+
+  /// Those in use.
   const Equations& equations() const { return ideal_.dynamics().equations(); }
-  /// psi'' at the state in hand with `applied()`.
-  void acceleration(std::span<double> psidd);
+  /// z'' of the coordinates in use, psi'' where none are switched, at the state in hand with `applied()`.
+  void acceleration(std::span<double> zdd);
 
  private:
   struct Drives;
@@ -97,6 +110,16 @@ class Plant {
   void take(std::span<const double> tau);
   void begin_tick();
   void follow_closures();
+  bool is_switched() const { return state_.loops.partition > 0; }
+  const Scene& declared() const { return partitions_ ? partitions_->declared() : equations().scene(); }
+  void follow_partitions();
+  int best_partition(const ClosureWatch& watch);
+  void go_over_to(int partition);
+  struct Declared {
+    std::span<const double> psi, psid;
+  };
+  Declared declared_at(double t, const Vector& x);
+  void set_parameters(const Faults::State& faults);
   void take_changes();
   void take_by_hardware(std::span<const double> tau);
   void integrate_driven(double t, double length);
@@ -108,19 +131,21 @@ class Plant {
   bool faults_may_come_;              ///< by inject
   std::optional<Hardware> hardware_;  ///< none: ideal
   PlantState state_;
-  bool is_closed_ = true;  ///< closures hold at tick()
+  bool is_closed_ = true;                 ///< closures hold at tick()
+  std::optional<Partitions> partitions_;  ///< where coordinates are switched
+  LoopMotion stage_;                      ///< at a stage
 };
 
 template <class Control>
 void Plant::advance_continuously(const Control& control) {
   auto& motion = state_.motion;
   const auto rate = [&](int step, int stage, double after, const Vector& x, Vector& dx) {
-    const std::span<const double> psi(x.data(), motion.n()), psid(x.data() + motion.n(), motion.n());
     const double t = time() + after;
+    const auto [psi, psid] = declared_at(t, x);
     control(rows_.rows * step + rows_.row[static_cast<std::size_t>(stage)], t, psi, psid,
             span_of(motion.applied));
     take(applied());
-    hardware_ ? driven_rate_of(0, t, x, dx) : ideal_.rate_of(motion, t, x, dx);
+    hardware_ || is_switched() ? driven_rate_of(0, t, x, dx) : ideal_.rate_of(motion, t, x, dx);
   };
   ideal_.integrator().advance(motion.x, model().tick_length(), rate, [](double, const Vector&, auto&) {});
   ++motion.tick;

@@ -15,8 +15,7 @@ bool Plant::measure(std::span<double> psi_out, std::span<double> psid_out) {
 }
 
 bool Plant::inject(const Fault& fault) {
-  if (!faults_may_come_ ||
-      !hardware_->faults->inject(state_.hardware.faults, fault, ideal_.dynamics().scene(), tick()))
+  if (!faults_may_come_ || !hardware_->faults->inject(state_.hardware.faults, fault, declared(), tick()))
     return false;
   take_changes();
   return true;
@@ -32,8 +31,7 @@ void Plant::begin_tick() {
 /// What changed with the tick in hand comes into force.
 void Plant::take_changes() {
   const HardwareState& hardware = state_.hardware;
-  if (const auto* faults = this->faults(); faults && faults->changed_at == tick())
-    ideal_.dynamics().set_parameters(faults->parameters, faults->friction);
+  if (const auto* faults = this->faults(); faults && faults->changed_at == tick()) set_parameters(*faults);
   if (hardware.was_asked && !state_.motion.locked) take(span_of(hardware.asked));
 }
 
@@ -54,7 +52,7 @@ void Plant::take_by_hardware(std::span<const double> tau) {
 
 /// Pieces end where a torque has a kink.
 void Plant::integrate_driven(double t, double length) {
-  const auto& actuators = hardware_->actuators;
+  const Actuators* actuators = hardware_ && hardware_->actuators ? &*hardware_->actuators : nullptr;
   auto& motion = state_.motion;
   auto& hardware = state_.hardware;
   double done = 0;
@@ -71,7 +69,7 @@ void Plant::integrate_driven(double t, double length) {
 
 /// What the drives make of the torque, `s` seconds after it was asked for.
 void Plant::drive(double s, std::span<const double> psi, std::span<const double> psid) {
-  if (!hardware_->actuators) return;
+  if (!hardware_ || !hardware_->actuators) return;
   const double friction = hardware_->faults ? state_.hardware.faults.friction : 1;
   hardware_->actuators->torque(state_.hardware.actuators, s, psi, psid, friction,
                                span_of(state_.motion.applied));
@@ -79,8 +77,10 @@ void Plant::drive(double s, std::span<const double> psi, std::span<const double>
 
 void Plant::driven_rate_of(double s, double t, const Vector& x, Vector& dx) {
   auto& motion = state_.motion;
-  drive(s, {x.data(), motion.n()}, {x.data() + motion.n(), motion.n()});
+  const auto [psi, psid] = declared_at(t, x);
+  drive(s, psi, psid);
   ideal_.rate_of(motion, t, x, dx);
+  if (is_switched()) dx[dx.size() - 1] = motion.applied.dot(map_of(psid).head(motion.applied.size()));
 }
 
 }  // namespace mixloop

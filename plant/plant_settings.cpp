@@ -73,6 +73,31 @@ void require_stages_in_time(const PlantSettings& settings, const Place& place) {
         "fixed stages; expected substeps");
 }
 
+/// Whether to switch coordinates, and to which.
+void read_near_singular(const Mapping& entry, const Scene& scene, PlantSettings& settings) {
+  const NodePtr said = entry.find("near_singular");
+  if (!said) return;
+  const bool switches = word_of(*said, words_of(plant_keys(), "near_singular"), "near_singular") == 1;
+  if (!scene.is_closed())
+    throw InputError("out_of_range", said->place,
+                     "near_singular is of closures that are solved as the mechanism moves, and the scene has "
+                     "none; expected it left out");
+  if (!switches) return;
+  if (settings.automatic || facts(settings.integrator).jacobian)
+    throw InputError(
+        "out_of_range", said->place,
+        fmt::format(
+            "{} takes the linearisation in the declared coordinates, and near_singular: switch leaves "
+            "them; expected an integrator without a Jacobian, or near_singular: stop",
+            settings.automatic ? "integrator: auto" : facts(settings.integrator).name));
+  auto partitions = partitions_of(scene);
+  if (partitions.size() == 1)
+    throw InputError("out_of_range", said->place,
+                     "the closures leave no other coordinates to switch to: in none of their unknowns in a "
+                     "motor's place can the mechanism be put together; expected near_singular: stop");
+  settings.partitions = std::make_shared<const std::vector<Partition>>(std::move(partitions));
+}
+
 }  // namespace
 
 const Keys& plant_keys() {
@@ -85,6 +110,7 @@ const Keys& plant_keys() {
                           {"torque_limit", form::numbers()},
                           {"initial", form::numbers()},
                           {"initial_rates", form::numbers()},
+                          {"near_singular", form::word({"stop", "switch"})},
                           {"parameters", form::named(form::number())},
                           {"sensors", form::mapping(sensor_keys)},
                           {"actuators", form::mapping(actuator_keys)}}};
@@ -116,6 +142,7 @@ PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene, doubl
     settings.initial_psi = read_values(initial, scene.independent, kPosition, "the initial position");
   if (const NodePtr rates = entry.find("initial_rates"))
     settings.initial_psid = read_values(rates, scene.independent, kVelocity, "the initial rate");
+  read_near_singular(entry, scene, settings);
   if (const NodePtr sensors = entry.find("sensors"))
     settings.sensors = read_sensor_settings(sensors, scene, rate_hz);
   if (const NodePtr actuators = entry.find("actuators"))

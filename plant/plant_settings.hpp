@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "dynamics/assembly/partitions.hpp"
 #include "dynamics/scene/coordinate_values.hpp"
 #include "dynamics/scene/scene.hpp"
 #include "integrators/method.hpp"
@@ -25,6 +27,9 @@ struct PlantSettings {
   std::vector<double> torque_limit;  ///< n_u, N m or N: what the motors can give; empty: no limit
   std::vector<double> initial_psi;   ///< n, rad or m: where it stands at first; empty: at the path's start
   std::vector<double> initial_psid;  ///< n, rad/s or m/s: of a motion without a path; empty: at rest
+  /// Where closures come near a singular pose, the coordinates that are switched to; null: the run stops
+  /// there.
+  std::shared_ptr<const std::vector<Partition>> partitions;
   SensorSettings sensors;
   ActuatorSettings actuators;
   FaultSettings faults;
@@ -42,7 +47,8 @@ std::vector<double> parameters_of(const PlantSettings& settings, const Scene& sc
 PlantSettings ideal(PlantSettings settings);
 
 /// Reads `{integrator, local_error, control, substeps, command_delay, torque_limit, initial,
-/// initial_rates, sensors, actuators}`; `parameters` belongs to the experiment. Sensors need the rate.
+/// initial_rates, near_singular, sensors, actuators}`; `parameters` belongs to the experiment. Sensors need
+/// the rate.
 PlantSettings read_plant_settings(const NodePtr& node, const Scene& scene, double rate_hz);
 
 }  // namespace mixloop

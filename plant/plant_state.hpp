@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/loop_motion.hpp"
 #include "dynamics/procedure/matrix.hpp"
 #include "plant/actuators.hpp"
 #include "plant/faults.hpp"
@@ -43,9 +44,13 @@ struct HardwareState {
 
 /// All that a plant remembers: a value. Whoever puts one back gets the same bytes from there on.
 struct PlantState {
-  IdealState<double> motion;
+  IdealState<double> motion;  ///< in the partition in use
   HardwareState hardware;
-  std::vector<double> anchor;  ///< where closures are solved from (ClosureFollower); empty where none are
+  /// Where closures are solved from (ClosureFollower), as long as the longest of all partitions; empty where
+  /// none are.
+  std::vector<double> anchor;
+  LoopMotion loops;           ///< at the tick; empty where no coordinates are switched
+  std::int64_t switches = 0;  ///< of them, until the tick
 
   bool operator==(const PlantState&) const = default;
 };

@@ -122,6 +122,7 @@ void fields(const Way& f, M& m) {
   f("no_way_on", m.no_way_on);
   f("closure_residual", m.closure_residual);
   f("closure_condition", m.closure_condition);
+  f("switches", m.switches);
   f("safe_at", m.safe_at);
   f("interrupted_at", m.interrupted_at);
 }

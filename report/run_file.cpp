@@ -265,6 +265,16 @@ LogFacts read_log_alone(RunFile& run, Mechanism* mechanism, const std::function<
   return facts;
 }
 
+/// Whether the plant of kept inputs switches coordinates.
+bool switches(const nlohmann::ordered_json& inputs) {
+  const auto* entry = &inputs;
+  for (const char* key : {"experiment", "plant", "near_singular"}) {
+    if (!entry->is_object() || !entry->contains(key)) return false;
+    entry = &(*entry)[key];
+  }
+  return *entry == "switch";
+}
+
 }  // namespace
 
 RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) {
@@ -282,6 +292,7 @@ RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) 
   run.inputs = known.inputs;
   if (run.inputs.is_object() && run.inputs.contains("experiment"))
     run.has_path = !run.inputs["experiment"].is_object() || !run.inputs["experiment"].contains("duration");
+  run.switches = switches(run.inputs);
   run.scene = known.scene;
   run.parameters = known.parameters;
   if (!run.scene) return run;
@@ -298,7 +309,13 @@ RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) 
 
 std::optional<LogFacts> read_ticks(RunFile& run, const std::function<void(Tick&)>& on_tick) {
   std::optional<Mechanism> mechanism;
-  if (run.scene) mechanism.emplace(run.scene, run.parameters);
+  if (run.switches)
+    run.notes.push_back(
+        "The plant switched coordinates (near_singular): the motors' alone don't say how the other ones "
+        "stand, "
+        "which are left out.");
+  else if (run.scene)
+    mechanism.emplace(run.scene, run.parameters);
   Mechanism* known = mechanism ? &*mechanism : nullptr;
   if (run.from_log) return read_log_alone(run, known, on_tick);
   return read_folder(run, known, on_tick);

@@ -32,6 +32,7 @@ struct RunFile {
   std::shared_ptr<const Scene> scene;     ///< null where none is known
   std::vector<double> parameters;         ///< of the plant
   bool has_path = true;                   ///< as far as is known
+  bool switches = false;                  ///< coordinates: psi doesn't say how the others stand
   double rate_hz = 0;
   std::int64_t first_tick = 0;
   RunSizes sizes;

@@ -14,6 +14,7 @@ RunFile opened(const std::filesystem::path& path, const ReadOptions& options) {
   if (!run.scene)
     throw InputError("no_scene", {path.string()},
                      "no inputs.json beside it, so its mechanism isn't known; expected --experiment FILE");
+  if (run.switches) refuse_switched({path.string()});
   return run;
 }
 

@@ -23,6 +23,14 @@ void write(fmt::memory_buffer& out, const char* key, std::span<const double> val
 
 }  // namespace
 
+void refuse_switched(const Place& place) {
+  throw InputError(
+      "switched_coordinates", place,
+      "its plant switches coordinates (near_singular): the motors' alone, which messages and "
+      "records have, don't say how the others stand, so no pose can be drawn; expected a run with "
+      "near_singular: stop");
+}
+
 std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& traces) {
   skeleton.place(pose.psi, pose.t);
   std::vector<double> frames;

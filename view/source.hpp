@@ -24,6 +24,9 @@ struct Pose {
   std::string note;        ///< what a person must know of it; empty where that is nothing
 };
 
+/// A run that switches coordinates can't be drawn.
+[[noreturn]] void refuse_switched(const Place& place);
+
 /// A pose as JSON {"k", "t", "session", "flags", "note", "psi", "q", "tau", "frames": [x, y, z, qx, qy, qz,
 /// qw, ...], "E", "desired", "error"}, with `traces` (JSON) beside it.
 std::string pose_json(Skeleton& skeleton, const Pose& pose, const std::string& traces);

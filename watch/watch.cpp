@@ -38,7 +38,8 @@ Watch::Watch(const std::string& prefix, std::optional<Experiment> experiment, In
     : experiment_(std::move(experiment)) {
   for (std::size_t i = 0; i < kChannelNames.size(); ++i)
     counts_.emplace_back(prefix + kChannelNames[i], by_tick(static_cast<Channel>(i)), start);
-  if (experiment_)
+  // Where coordinates are switched, psi doesn't say where the end effector is.
+  if (experiment_ && !experiment_->plant.partitions)
     kinematics_.emplace(equations_of(experiment_->scene, Evaluation::interpreter, {Purpose::end_effector}),
                         experiment_->plant_parameters);
 }

@@ -223,7 +223,9 @@ void assemble(Scene& scene) {
   refuse_motors_that_move_nothing(scene, closing, x);
   put_home(scene, closing, x);
   for (int row : structure.redundant) scene.redundant_rows.push_back(closing.row(row));
-  put_steps(scene, closing, structure.blocks, linear_blocks(scene, closing, structure.blocks, x));
+  const std::vector<bool> is_linear = scene.from_starts ? std::vector<bool>(structure.blocks.size(), false)
+                                                        : linear_blocks(scene, closing, structure.blocks, x);
+  put_steps(scene, closing, structure.blocks, is_linear);
   find_starts(scene);
 }
 

@@ -10,7 +10,8 @@ namespace mixloop {
 /// Finds how a scene's closures hold: puts its mechanism together at home, from the guesses; finds which rows
 /// follow from others, in which blocks the coordinates without a formula are solved one after the other, and
 /// which of them follow linearly, so that these have a formula from then on. The scene's blocks, steps,
-/// redundant_rows, size and its coordinates' `home` say so afterwards.
+/// redundant_rows, size and its coordinates' `home` say so afterwards. Of a scene `from_starts` no formula is
+/// looked for.
 ///
 /// Throws InputError: "underconstrained", "overconstrained", "cannot_assemble", "ambiguous_branch",
 /// "singular_home", "moves_nothing".

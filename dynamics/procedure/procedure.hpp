@@ -30,6 +30,19 @@ void project_bias(const Model<T>& model, Workspace<T>& ws) {
   if (!model.along_loads.empty()) ws.h += ws.on_psi;
 }
 
+/// tau - h, n: what motors give along psi, or by virtual work along a coordinate, C^T tau.
+template <class T>
+void driving_forces(const Model<T>& model, std::span<const T> tau, Workspace<T>& ws) {
+  const auto& along = model.scene->acts_along;
+  for (int i = 0; i < model.n(); ++i) {
+    const auto motor = static_cast<std::size_t>(i);
+    const bool is_driven = i < model.n_u() && (along.empty() || along[motor] < 0);
+    ws.out[i] = is_driven ? T(tau[motor] - ws.h[i]) : T(-ws.h[i]);
+  }
+  for (std::size_t motor = 0; motor < along.size(); ++motor)
+    if (along[motor] >= 0) ws.out += ws.C.row(along[motor]).transpose() * tau[motor];
+}
+
 template <class T>
 void assemble(const Model<T>& model, std::span<const T> psi, std::span<const T> psid, const T& t,
               Workspace<T>& ws) {
@@ -81,8 +94,7 @@ const Vec<T>& forward_dynamics(const Model<T>& model, std::span<const T> psi, st
                                std::span<const T> tau, const T& t, Workspace<T>& ws) {
   detail::assemble(model, psi, psid, t, ws);
   detail::project_mass(model, ws);
-  for (int i = 0; i < model.n_u(); ++i) ws.out[i] = tau[static_cast<std::size_t>(i)] - ws.h[i];
-  for (int i = model.n_u(); i < model.n(); ++i) ws.out[i] = -ws.h[i];
+  detail::driving_forces(model, tau, ws);
   ws.L = ws.M;
   factor_ldlt(ws.L);
   solve_ldlt(ws.L, ws.out);

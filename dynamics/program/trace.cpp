@@ -26,8 +26,24 @@ ExpressionVector input_vector(int from, int n) {
   return result;
 }
 
+// What the motors' forces are to all independent coordinates, n: along psi, or C^T tau of those along a
+// coordinate.
+ExpressionVector driving_forces(const Scene& scene, Tracer& tracer) {
+  if (scene.acts_along.empty()) return motor_inputs(scene);
+  ExpressionVector forces = ExpressionVector::Constant(scene.n(), Expression(0.0));
+  for (std::size_t motor = 0; motor < scene.acts_along.size(); ++motor) {
+    const Expression tau = Expression::input(Block::input, motor);
+    if (scene.acts_along[motor] < 0)
+      forces[static_cast<Eigen::Index>(motor)] += tau;
+    else
+      forces += tracer.slopes(scene.acts_along[motor]) * tau;
+  }
+  return forces;
+}
+
 // psidd = M^-1 (tau - h) satisfies r = M psidd + h - tau = 0, so d psidd = -M^-1 dr at fixed psidd.
 Nodes linearisation(Graph& graph, const Scene& scene, Tracer& tracer) {
+  if (!scene.acts_along.empty()) throw std::logic_error("a linearisation where motors act along coordinates");
   const int n = scene.n();
   const TracedInputs in(scene);
   const ExpressionVector held = input_vector(n, n);  // stands for psidd while r is differentiated
@@ -59,7 +75,7 @@ Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpos
   Nodes nodes;
   switch (purpose) {
     case Purpose::forward_dynamics:
-      append(nodes, tracer.forward_dynamics(motor_inputs(*scene)));
+      append(nodes, tracer.forward_dynamics(driving_forces(*scene, tracer)));
       break;
     case Purpose::mass_times:
       append(nodes, tracer.mass_times(motor_inputs(*scene)).head(n_u));
@@ -89,7 +105,7 @@ Nodes outputs_of(Graph& graph, const std::shared_ptr<const Scene>& scene, Purpos
       break;
     }
     case Purpose::dynamics_and_mass_times:
-      append(nodes, tracer.forward_dynamics(motor_inputs(*scene)));
+      append(nodes, tracer.forward_dynamics(driving_forces(*scene, tracer)));
       append(nodes, tracer.mass_times(motor_inputs(*scene, n_u)).head(n_u));
       break;
   }

@@ -80,6 +80,8 @@ std::string canonical_text(const Scene& scene) {
     for (const auto* formula : {&load.law.stiffness, &load.law.rest, &load.law.damping}) add(text, *formula);
   }
   if (scene.friction_factor) text += "friction factor\n";
+  if (scene.from_starts)
+    text += fmt::format("from starts, acts along {}\n", fmt::join(scene.acts_along, " "));
   if (scene.is_closed()) add_closures(text, scene);
   text += "gravity\n";
   add(text, scene.gravity);

@@ -190,6 +190,11 @@ struct Scene {
   std::string canonical;              ///< a text equal for equal mechanisms, to hash
   /// Of none read from a file: viscous friction is times a number, the last of the parameters' values.
   bool friction_factor = false;
+  /// Of none read from a file: all blocks are solved by corrections from a start, which says the branch.
+  bool from_starts = false;
+  /// Of none read from a file: the coordinate that each motor acts along, where that isn't its psi; else -1.
+  /// Empty: along psi, each.
+  std::vector<int> acts_along;
 
   /// How many numbers say where closures are solved from: of each started coordinate its value and, of an
   /// angle, its cosine and sine.
@@ -203,7 +208,8 @@ struct Scene {
     return !loads.empty() || !coordinate_loads.empty() || !along_loads.empty() || !between_loads.empty();
   }
   int n() const { return static_cast<int>(independent.size()); }
-  /// The independent coordinates that motors drive: motor i drives psi_i, so a force tau_i acts along it.
+  /// The independent coordinates that motors drive: motor i drives psi_i, so a force tau_i acts along it
+  /// (unless acts_along says along what).
   int n_u() const { return static_cast<int>(motors().size()); }
   std::span<const Independent> motors() const;
   /// Whether there is viscous friction.

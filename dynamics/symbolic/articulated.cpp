@@ -253,6 +253,7 @@ std::optional<std::vector<int>> one_each(const LinkFrames& frames) {
 }  // namespace
 
 std::unique_ptr<Tracer> articulated_tracer(std::shared_ptr<const Scene> scene) {
+  if (!scene->acts_along.empty()) return nullptr;
   LinkFrames frames(scene);
   auto psi_of_link = one_each(frames);
   if (!psi_of_link) return nullptr;

@@ -10,6 +10,10 @@ namespace mixloop {
 using E = Expression;
 
 SolvedBlock ClosedChains::solve_block(const Model<E>& model, int block, AlongOnGraph& along) {
+  if (model.scene->from_starts) {
+    how_.push_back(BlockSolution::newton);
+    return solve_by_newton(model, block, along);
+  }
   if (auto single = solve_single(model, block, along)) {
     how_.push_back(BlockSolution::single);
     return std::move(*single);

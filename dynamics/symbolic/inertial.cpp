@@ -86,6 +86,7 @@ class InertialTracer final : public Tracer {
     return energy;
   }
 
+  ExpressionVector slopes(int coordinate) override { return at().C.row(coordinate).transpose(); }
   std::vector<Cut> cuts() const override { return frames_.chains().cuts(at()); }
   std::vector<E> solved_from_start() const override {
     return frames_.chains().solved_from_start(*model().scene, at());

@@ -26,6 +26,10 @@ class LiteralTracer final : public Tracer {
   Energy<Expression> energy() override {
     return mixloop::energy<Expression>(model_, span_of(in_.psi), span_of(in_.psid), in_.t, workspace_);
   }
+  ExpressionVector slopes(int coordinate) override {
+    coordinates<Expression>(model_, span_of(in_.psi), in_.t, workspace_);
+    return workspace_.C.row(coordinate).transpose();
+  }
   std::vector<Cut> cuts() const override { return chains_.cuts(workspace_); }
   std::vector<Expression> solved_from_start() const override {
     return chains_.solved_from_start(*model_.scene, workspace_);

@@ -45,6 +45,7 @@ class RecursiveTracer final : public Tracer {
     return forces(qdd);
   }
 
+  ExpressionVector slopes(int coordinate) override { return at().C.row(coordinate).transpose(); }
   std::vector<Cut> cuts() const override { return frames_.chains().cuts(at()); }
   std::vector<E> solved_from_start() const override {
     return frames_.chains().solved_from_start(*model().scene, at());

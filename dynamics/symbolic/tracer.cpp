@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/symbolic/tracer.hpp"
 
+#include <stdexcept>
+
 namespace mixloop {
 
 TracedInputs::TracedInputs(const Scene& scene) : psi(scene.n()), psid(scene.n()) {
@@ -21,6 +23,10 @@ ExpressionVector motor_inputs(const Scene& scene, int from) {
   for (int i = 0; i < scene.n_u(); ++i)
     result[i] = Expression::input(Block::input, static_cast<std::size_t>(from + i));
   return result;
+}
+
+ExpressionVector Tracer::slopes(int) {
+  throw std::logic_error("a force along a coordinate, by a tracer that doesn't know its slopes");
 }
 
 ExpressionVector Tracer::mass_times(const ExpressionVector& a) { return mass_matrix().lazyProduct(a); }

@@ -46,6 +46,8 @@ class Tracer {
   /// M^-1 B, column by column.
   virtual ExpressionMatrix mass_inverse_times(const ExpressionMatrix& B);
 
+  /// d q_j / d psi, n: how a force along a coordinate is shared out. Of scenes whose chains close.
+  virtual ExpressionVector slopes(int coordinate);
   /// Of what has been written down so far: what closures are solved for.
   virtual std::vector<Cut> cuts() const { return {}; }
   /// Where closures are solved by Newton's method: the solution, a start for what comes next (start_size()),
@@ -64,7 +66,8 @@ std::unique_ptr<Tracer> recursive_tracer(std::shared_ptr<const Scene> scene);
 std::unique_ptr<Tracer> inertial_tracer(std::shared_ptr<const Scene> scene);
 
 /// Articulated bodies in link frames for forward dynamics, operations in proportion to n; the rest as the
-/// recursive tracer. nullptr unless each independent coordinate moves one joint of the tree alone.
+/// recursive tracer. nullptr unless each independent coordinate moves one joint of the tree alone, and the
+/// motors act along these.
 std::unique_ptr<Tracer> articulated_tracer(std::shared_ptr<const Scene> scene);
 
 /// Kinetic energy and potential as trigonometric polynomials of the independent angles. nullptr where the

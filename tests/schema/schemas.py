@@ -203,7 +203,7 @@ def pages_name_the_keys(source, known, wrong):
 def main(source, mixloop):
     source = os.path.realpath(source)
     wrong, known, tried = [], {}, 0
-    for kind, names in (("scene", ["scene.yaml", "closures.yaml"]), ("experiment", ["experiment.yaml", "line.yaml", "free.yaml"])):
+    for kind, names in (("scene", ["scene.yaml", "closures.yaml"]), ("experiment", ["experiment.yaml", "line.yaml", "free.yaml", "near_singular.yaml"])):
         schema = schema_of(mixloop, kind)
         jsonschema.Draft7Validator.check_schema(schema)
         validator = jsonschema.Draft7Validator(schema)
