@@ -46,16 +46,15 @@ MIXLOOP_INLINE void sincos_of(const typename Vectors<kLanes>::Real (&x)[kCount],
                               typename Vectors<kLanes>::Real (&cosine)[kCount]) {
   using Real = typename Vectors<kLanes>::Real;
   using Bits = typename Vectors<kLanes>::Bits;
-  constexpr int64_t kMagnitude = INT64_MAX;
-  Real sum = {};
+  Bits any_far = {};
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
     mixloop_functions::small_sincos<Bits>(x[i], sine[i], cosine[i]);
-    sum += (Real)((Bits)x[i] & kMagnitude);
+    Bits far;
+    mixloop_functions::mark_far(x[i], far);
+    any_far |= far;
   }
-  double all = 0.0;
-  for (int lane = 0; lane < kLanes; ++lane) all += sum[lane];
-  if (__builtin_expect(all < mixloop_functions::kLimit, 1)) return;
+  if (__builtin_expect(!mixloop_functions::any_negative(any_far), 1)) return;
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
     const Real angle = x[i];  // only these copies' addresses are taken

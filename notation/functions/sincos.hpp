@@ -173,10 +173,32 @@ MIXLOOP_INLINE void small_sincos(const Real& x, Real& sine, Real& cosine) {
   const Real z = near * near;
   sine_kernel(r, z, s);
   cosine_kernel(z, c);
-  Bits u = (Bits)s, v = (Bits)c;
-  to_quadrant((Bits)shifted, u, v);
-  sine = (Real)u;
-  cosine = (Real)v;
+  // As to_quadrant.
+  const Bits quadrant = (Bits)shifted, sign = Bits() + INT64_MIN, odd = (quadrant << 63) < 0;
+  sine = (Real)((Bits)(odd ? c : s) ^ ((quadrant << 62) & sign));
+  cosine = (Real)((Bits)(odd ? s : c) ^ (((quadrant + 1) << 62) & sign));
+}
+
+// Negative in lanes from kLimit on, or of no number.
+template <class Bits, class Real>
+MIXLOOP_INLINE void mark_far(const Real& x, Bits& far) {
+  constexpr int64_t kMagnitude = INT64_MAX, kNearest = 0x412fffffffffffff;  // the double below kLimit
+  far = kNearest - ((Bits)x & kMagnitude);
+}
+
+template <class Bits>
+MIXLOOP_INLINE bool any_negative(const Bits& lanes) {
+#if defined(__x86_64__) && defined(__AVX__)
+  typedef double Doubles __attribute__((vector_size(32)));
+  if constexpr (sizeof(Bits) == 32) return __builtin_ia32_movmskpd256((Doubles)lanes) != 0;
+#endif
+#if defined(__x86_64__) && defined(__AVX512DQ__)
+  typedef long long Longs __attribute__((vector_size(64)));
+  if constexpr (sizeof(Bits) == 64) return __builtin_ia32_cvtq2mask512((Longs)lanes) != 0;
+#endif
+  int64_t any = 0;
+  for (unsigned i = 0; i < sizeof(Bits) / sizeof(int64_t); ++i) any |= lanes[i];
+  return any < 0;
 }
 
 typedef double Four __attribute__((vector_size(32)));
@@ -196,8 +218,9 @@ MIXLOOP_INLINE void sincos_of_four(const Four& x, double (&sine)[kCount], double
   static_assert(kCount <= 4, "four lanes");
   Four s, c;
   small_sincos<FourBits>(x, s, c);
-  const FourBits near = (FourBits)(x < kLimit) & (FourBits)(x > -kLimit);
-  if (__builtin_expect((near[0] & near[1] & near[2] & near[3]) == 0, 0)) {
+  FourBits far;
+  mark_far(x, far);
+  if (__builtin_expect(any_negative(far), 0)) {
     Four exact_s, exact_c;
     const Four angles = x;  // only this copy's address is taken
     one_by_one(&angles, &exact_s, &exact_c);

@@ -62,7 +62,7 @@ TEST_F(Functions, LargeAnglesAreNoWorse) {
 
 TEST_F(Functions, SeveralAnglesAtOnceHaveTheBitsOfEachAlone) {
   for (int k = 0; k < 20000; ++k) {
-    const double reach = k % 5 == 0 ? 1e9 : 1e3;
+    const double reach = k % 5 == 0 ? 1e9 : k % 5 == 1 ? 3e6 : 1e3;
     double x[3], sine[3], cosine[3];
     for (double& angle : x) angle = between(-reach, reach);
     mixloop_functions::sincos_of(x, sine, cosine);
