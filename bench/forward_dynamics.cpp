@@ -118,7 +118,7 @@ double time_forward(const Engine& engine, const std::vector<State>& states, int 
 void time_others(const Engine& engine, const std::vector<State>& states, int count, Row& row) {
   if (engine.forward_all) return;
   Triple psidd{}, force{};
-  Symmetric M{};
+  MassMatrix M{};
   const auto each = [&](double& least, auto&& evaluation) {
     time_pass(least, count, [&] {
       for (int i = 0; i < count; ++i) evaluation(states[static_cast<std::size_t>(i)]);
@@ -151,7 +151,12 @@ Row verified(const Engine& engine, const std::vector<State>& states, const std::
   row.forward_error = relative_error(actual, psidd);
   if (engine.mass) {
     std::vector<Symmetric> M(states.size());
-    for (std::size_t i = 0; i < states.size(); ++i) engine.mass(states[i], M[i]);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      MassMatrix x{};
+      engine.mass(states[i], x);
+      M[i] = engine.whole_matrix ? Symmetric{x[0], x[3], x[6], x[4], x[7], x[8]}
+                                 : Symmetric{x[0], x[1], x[2], x[3], x[4], x[5]};
+    }
     row.mass_error = relative_error(M, masses);
   }
   return row;
