@@ -8,6 +8,7 @@
 #include "dynamics/equations.hpp"
 #include "dynamics/partitions.hpp"
 #include "plant/hardware.hpp"
+#include "plant/held_motors.hpp"
 #include "plant/ideal_plant.hpp"
 
 namespace mixloop {
@@ -79,8 +80,8 @@ class Plant {
   /// Goes on to the next tick from where take_effect left it, or from the tick's start.
   void finish_tick();
 
-  /// The motors lock where they stand, for good: velocities are zero and positions stay. What that absorbs is
-  /// no work of theirs.
+  /// The motors lock where they stand, for good: their velocities are zero and their positions stay. What that
+  /// absorbs is no work of theirs. Free coordinates move on (HeldMotors).
   void lock();
 
   /// Goes on to the next tick, `control(row, t, psi, psid, tau)` evaluated at every stage of the method; rows
@@ -123,6 +124,7 @@ class Plant {
   void take_changes();
   void take_by_hardware(std::span<const double> tau);
   void integrate_driven(double t, double length);
+  void integrate_held(double t, double length);
   void drive(double s, std::span<const double> psi, std::span<const double> psid);
   void driven_rate_of(double s, double t, const Vector& x, Vector& dx);
 
@@ -130,6 +132,8 @@ class Plant {
   StageRows rows_;
   bool faults_may_come_;              ///< by inject
   std::optional<Hardware> hardware_;  ///< none: ideal
+  std::optional<HeldMotors> held_;    ///< where there are free coordinates
+  Vector held_rates_;                 ///< x' of the locked plant, of methods with a Jacobian
   PlantState state_;
   bool is_closed_ = true;                 ///< closures hold at tick()
   std::optional<Partitions> partitions_;  ///< where coordinates are switched
