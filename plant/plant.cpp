@@ -43,6 +43,7 @@ Plant::Plant(Equations::Workspace dynamics, const PlantSettings& settings, doubl
     : ideal_{plant_model(settings, dynamics.scene(), rate_hz), std::move(dynamics)},
       rows_(stage_rows(settings.integrator)),
       faults_may_come_(settings.faults.injected),
+      measured_(settings.sensors.measured(model().n)),
       state_{.motion = state_at(model(), psi0, psid0)} {
   if (model().n > model().n_u) {
     held_.emplace(static_cast<Eigen::Index>(model().n), static_cast<Eigen::Index>(model().n_u));

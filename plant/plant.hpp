@@ -46,10 +46,14 @@ class Plant {
   /// What acts from time() on (n_u), after delay, saturation and what the drives make of it, N m or N.
   std::span<const double> applied() const { return span_of(state_.motion.applied); }
 
-  /// What the sensors say at tick(), n each; true where a reading is older than it should be.
+  /// What the sensors say at tick() of what they measure; true where a reading is older than it should be.
   bool measure(std::span<double> psi, std::span<double> psid);
+  /// Which of the independent coordinates are measured, the motors first.
+  std::span<const int> measured() const { return measured_; }
   /// Whether that is psi() and psid().
-  bool measures_exactly() const { return !hardware_ || !hardware_->sensors; }
+  bool measures_exactly() const {
+    return (!hardware_ || !hardware_->sensors) && measured_.size() == psi().size();
+  }
   /// Takes a fault, which acts from tick() on or later. False: it can't be (objection says why), too many
   /// wait for their time, or the settings don't allow any.
   bool inject(const Fault& fault);
@@ -131,6 +135,7 @@ class Plant {
   IdealPlant<double, Equations::Workspace> ideal_;
   StageRows rows_;
   bool faults_may_come_;              ///< by inject
+  std::vector<int> measured_;
   std::optional<Hardware> hardware_;  ///< none: ideal
   std::optional<HeldMotors> held_;    ///< where there are free coordinates
   Vector held_rates_;                 ///< x' of the locked plant, of methods with a Jacobian

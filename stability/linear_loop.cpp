@@ -5,6 +5,7 @@
 
 #include "dynamics/procedure/singular_mass.hpp"
 #include "dynamics/scene/fully_driven.hpp"
+#include "loop/measured.hpp"
 
 namespace mixloop {
 namespace {
@@ -20,6 +21,7 @@ Linearisation::Linearisation(const Experiment& experiment)
     : scene_(experiment.scene),
       parameters_(experiment.plant_parameters),
       settings_(experiment.controller),
+      of_model_(model_coordinates(experiment)),
       plant_(linear_dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation)),
       model_(linear_dynamics(fully_driven(experiment.controller_scene), experiment.controller_parameters,
                              experiment.evaluation)) {}
@@ -27,7 +29,7 @@ Linearisation::Linearisation(const Experiment& experiment)
 LinearLoop Linearisation::at(const Reference& reference, double t) {
   const PsiMotion at = wanted_state(settings_, *scene_, reference);
   LinearPlant plant = plant_at(at, t);
-  return {std::move(plant.A), std::move(plant.B), feedback(settings_, model_, at, t)};
+  return {std::move(plant.A), std::move(plant.B), feedback(settings_, model_, at, t, of_model_)};
 }
 
 LinearPlant Linearisation::plant_at(const PsiMotion& at, double t) {

@@ -39,6 +39,7 @@ class Linearisation {
   const std::shared_ptr<const Scene> scene_;
   const std::vector<double> parameters_;
   const ControllerSettings settings_;
+  const std::vector<int> of_model_;  ///< model_coordinates
   Equations::Workspace plant_, model_;
 };
 
