@@ -103,21 +103,24 @@ std::string moves_on(const Scene& scene, const LinearPlant& plant) {
 }  // namespace
 
 void add_linear_options(CLI::App& command, LinearLine& line) {
-  auto* linear = command.add_flag("--linear", line.asked,
-                                  "print x' = A x + B u of the plant alone, and of a tick with the torque held");
+  auto* linear = command.add_flag(
+      "--linear", line.asked, "print x' = A x + B u of the plant alone, and of a tick with the torque held");
   const auto text = [&](const char* name, std::string& to, const char* what, const char* type) {
     command.add_option(name, to, what)->needs(linear)->type_name(type);
   };
-  text("--psi", line.psi, "of --linear: where, rad or m, all independent coordinates (where the law keeps them at "
-                          "the start)", "A,B,...");
+  text("--psi", line.psi,
+       "of --linear: where, rad or m, all independent coordinates (where the law keeps them at "
+       "the start)",
+       "A,B,...");
   text("--psid", line.psid, "of --linear: how fast, rad/s or m/s (0 where --psi is given)", "A,B,...");
   text("--t", line.t, "of --linear: when, s", "TIME");
   const auto numbers = [&](const char* name, std::vector<double>& to, const char* what) {
     return command.add_option(name, to, what)->delimiter(',')->type_name("Q,R,...");
   };
-  auto* regulator = numbers("--regulator", line.state_weights,
-                            "of --linear: the gain of state_feedback that makes sum x'Qx + u'Ru least, by these "
-                            "weights of psi, then of psi', SI");
+  auto* regulator =
+      numbers("--regulator", line.state_weights,
+              "of --linear: the gain of state_feedback that makes sum x'Qx + u'Ru least, by these "
+              "weights of psi, then of psi', SI");
   regulator->needs(linear);
   numbers("--torque-weights", line.torque_weights, "of --regulator: the weights of the motors' torques (1)")
       ->needs(regulator);

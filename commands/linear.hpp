@@ -8,7 +8,7 @@ namespace mixloop {
 /// `mixloop stability --linear`: where a plant is linearised, and what a regulator is to weigh.
 struct LinearLine {
   bool asked = false;
-  std::string psi, psid, t;                  ///< empty: where the law keeps it at the start
+  std::string psi, psid, t;                           ///< empty: where the law keeps it at the start
   std::vector<double> state_weights, torque_weights;  ///< of --regulator; 2n and n_u, one for all or none
 };
 

@@ -12,8 +12,8 @@ namespace mixloop {
 /// knows of the robot, not what the plant is.
 class Controller {
  public:
-  /// `seen`: of each coordinate that the law takes, those of state_feedback or of the model, its place in what
-  /// is measured; -1 where it isn't, and none: each at its own.
+  /// `seen`: of each coordinate that the law takes, those of state_feedback or of the model, its place in
+  /// what is measured; -1 where it isn't, and none: each at its own.
   Controller(Equations::Workspace dynamics, ControllerSettings settings, std::vector<int> seen = {});
 
   /// tau (n_u). Allocates nothing.

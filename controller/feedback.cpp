@@ -26,7 +26,8 @@ InverseDynamicsSlope inverse_dynamics_slope(Equations::Workspace& dynamics, cons
 
 Feedback feedback(const ControllerSettings& settings, Equations::Workspace& model, const PsiMotion& at,
                   double t, std::span<const int> of_model) {
-  const auto n_u = settings.kp.size(), n = at.psi.size(), known = static_cast<Eigen::Index>(model.scene().n());
+  const auto n_u = settings.kp.size(), n = at.psi.size(),
+             known = static_cast<Eigen::Index>(model.scene().n());
   const auto place = [&](Eigen::Index i) {
     return of_model.empty() ? i : static_cast<Eigen::Index>(of_model[static_cast<std::size_t>(i)]);
   };

@@ -158,10 +158,12 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   if (const NodePtr seed = root.find("seed"))
     plant.seed = static_cast<std::uint64_t>(whole_number_of(*seed, 0, 1L << 53, "the seed"));
   for (const Fault& fault : plant.faults.scheduled)
-    if (fault.target == Fault::Target::sensor && std::ranges::count(plant.sensors.unmeasured, fault.index) > 0)
-      throw InputError("not_measured", faults->place,
-                       fmt::format("a fault of the sensor of '{}', which isn't measured (plant.sensors.free)",
-                                   experiment.scene->independent[static_cast<std::size_t>(fault.index)].name));
+    if (fault.target == Fault::Target::sensor &&
+        std::ranges::count(plant.sensors.unmeasured, fault.index) > 0)
+      throw InputError(
+          "not_measured", faults->place,
+          fmt::format("a fault of the sensor of '{}', which isn't measured (plant.sensors.free)",
+                      experiment.scene->independent[static_cast<std::size_t>(fault.index)].name));
   check_hardware(plant, root.find("plant"), faults);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "notation/utf8.hpp"
 
@@ -96,7 +97,8 @@ void require_measured(const Experiment& experiment, const NodePtr& controller) {
     const int missing = unseen(seen, [](std::size_t) { return true; });
     if (missing >= 0)
       refuse("law", *experiment.controller_scene, missing,
-             fmt::format("the law {} takes its model where it stands by", describe(*find_entry(*controller, "law"))));
+             fmt::format("the law {} takes its model where it stands by",
+                         describe(*find_entry(*controller, "law"))));
   }
 }
 

@@ -8,8 +8,8 @@ namespace mixloop {
 /// The plant's independent coordinates that are measured, the motors first: what STATE counts.
 std::vector<int> measured_coordinates(const Experiment& experiment);
 
-/// Of each independent coordinate of the controller's scene, which of the plant's it is. A controller may know
-/// fewer free ones than the plant has.
+/// Of each independent coordinate of the controller's scene, which of the plant's it is. A controller may
+/// know fewer free ones than the plant has.
 std::vector<int> model_coordinates(const Experiment& experiment);
 
 /// Of each coordinate that the control law takes its place in what is measured; -1 where it isn't.

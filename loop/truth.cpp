@@ -59,7 +59,10 @@ const Truth& TruthReader::at(std::int64_t k) {
 /// Locked motors don't accelerate, and what is free does as they stand.
 void TruthReader::hold_motors(std::int64_t k) {
   Eigen::Map<Vector> zdd(zdd_.data(), static_cast<Eigen::Index>(zdd_.size()));
-  if (!held_) return zdd.setZero(), void();
+  if (!held_) {
+    zdd.setZero();
+    return;
+  }
   held_->look(*dynamics_, recorder_.psi(k), recorder_.time(k));
   held_->hold(zdd);
 }

@@ -27,7 +27,7 @@ void HeldMotors::hold(Eigen::Ref<Matrix> x) {
 }
 
 // tau = M (psi'' - a), of the motors
-const Vector& HeldMotors::torque(const Vector& a) {
+const Vector& HeldMotors::torque(const Eigen::Ref<const Vector>& a) {
   change_ = a;
   hold(change_);
   change_ -= a;

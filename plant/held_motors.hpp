@@ -20,7 +20,7 @@ class HeldMotors {
   /// own are 0.
   void hold(Eigen::Ref<Matrix> x);
   /// The torque (n_u) that holds the motors where without any the accelerations (n) are `a`.
-  const Vector& torque(const Vector& a);
+  const Vector& torque(const Eigen::Ref<const Vector>& a);
 
  private:
   Eigen::Index n_u_;

@@ -50,13 +50,13 @@ class IdealPlant {
   /// The same by `rate(after, x, dx)`, `after` s after t.
   template <class Rate>
   void integrate(State& state, double t, double length, const Rate& rate) {
-    integrate(state, length, rate, [&](const T& after, const Vec<T>& x, auto& jacobian) {
+    integrate_by(state, length, rate, [&](const T& after, const Vec<T>& x, auto& jacobian) {
       linearise(state, t + after, x, jacobian);
     });
   }
   /// And `linear(after, x, jacobian)`, of methods that take one.
   template <class Rate, class Linear>
-  void integrate(State& state, double length, const Rate& rate, const Linear& linear) {
+  void integrate_by(State& state, double length, const Rate& rate, const Linear& linear) {
     const auto at = [&](int, int, const T& after, const Vec<T>& x, Vec<T>& dx) { rate(after, x, dx); };
     if (!model_.jacobian) return integrator_.advance(state.x, length, at, linear);
     // Methods with a Jacobian leave the work alone: tau . (psi+ - psi) of the motors, the torque held.

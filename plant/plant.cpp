@@ -148,7 +148,7 @@ void Plant::lock() {
 void Plant::integrate_held(double t, double length) {
   if (!held_) return;
   auto& motion = state_.motion;
-  const auto n = static_cast<Eigen::Index>(model().n); 
+  const auto n = static_cast<Eigen::Index>(model().n);
   const auto look = [&](double at, const Vector& x, Vector& dx) {
     ideal_.rate_of(motion, at, x, dx);
     held_->look(ideal_.dynamics(), {x.data(), model().n}, at);
@@ -166,7 +166,7 @@ void Plant::integrate_held(double t, double length) {
     held_->hold(jacobian.by_v);
     held_->hold(jacobian.by_t);
   };
-  ideal_.integrate(motion, length, rate, linear);
+  ideal_.integrate_by(motion, length, rate, linear);
 }
 
 void Plant::acceleration(std::span<double> zdd) {

@@ -84,8 +84,8 @@ class Plant {
   /// Goes on to the next tick from where take_effect left it, or from the tick's start.
   void finish_tick();
 
-  /// The motors lock where they stand, for good: their velocities are zero and their positions stay. What that
-  /// absorbs is no work of theirs. Free coordinates move on (HeldMotors).
+  /// The motors lock where they stand, for good: their velocities are zero and their positions stay. What
+  /// that absorbs is no work of theirs. Free coordinates move on (HeldMotors).
   void lock();
 
   /// Goes on to the next tick, `control(row, t, psi, psid, tau)` evaluated at every stage of the method; rows
@@ -134,7 +134,7 @@ class Plant {
 
   IdealPlant<double, Equations::Workspace> ideal_;
   StageRows rows_;
-  bool faults_may_come_;              ///< by inject
+  bool faults_may_come_;  ///< by inject
   std::vector<int> measured_;
   std::optional<Hardware> hardware_;  ///< none: ideal
   std::optional<HeldMotors> held_;    ///< where there are free coordinates

@@ -54,8 +54,7 @@ std::vector<int> unmeasured(const NodePtr& node, const Scene& scene) {
                        in_quotes(name) + " is no free coordinate of the scene; motors are always measured" +
                            suggestion(name, names));
     const auto index = static_cast<std::size_t>(at - names.begin());
-    if (named[index])
-      throw InputError("doubly_defined", item->place, in_quotes(name) + " is listed twice");
+    if (named[index]) throw InputError("doubly_defined", item->place, in_quotes(name) + " is listed twice");
     named[index] = true;
   }
   std::vector<int> others;

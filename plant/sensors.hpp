@@ -31,7 +31,8 @@ struct SensorSettings {
   std::vector<int> measured(std::size_t n) const;
 };
 
-/// Reads `{free, resolution, noise, bias, delay, drop, velocity: measured | differentiated, velocity_filter}`.
+/// Reads `{free, resolution, noise, bias, delay, drop, velocity: measured | differentiated,
+/// velocity_filter}`.
 SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, double rate_hz);
 
 /// The sensors: of psi a reading, psi + bias + noise rounded to the resolution and through the sensor's

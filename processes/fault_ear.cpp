@@ -97,7 +97,8 @@ void FaultEar::take(const fault_t& message) {
                           counted_parameters(scene)));
   require_possible(fault, ground);
   if (fault.target == Fault::Target::sensor)
-    if (const auto& without = experiment.plant.sensors.unmeasured; std::ranges::count(without, fault.index) > 0)
+    if (const auto& without = experiment.plant.sensors.unmeasured;
+        std::ranges::count(without, fault.index) > 0)
       throw InputError("not_measured", {}, "that coordinate isn't measured: it has no sensor");
   if (const char* reason = run_.deadlines().no_room_for(fault, heard_))
     throw InputError("out_of_range", {}, reason);

@@ -45,8 +45,8 @@ LinearPlant Linearisation::plant_at(const PsiMotion& at, double t) {
   Vector needed(n);
   plant_.evaluate(Purpose::inverse_dynamics, {span_of(at.psi), span_of(at.psid), span_of(at.psidd), t},
                   span_of(needed));
-  LinearPlant plant{t, at, needed.head(n_u), needed.tail(n - n_u), Matrix::Zero(2 * n, 2 * n),
-                    Matrix::Zero(2 * n, n_u)};
+  LinearPlant plant{
+      t, at, needed.head(n_u), needed.tail(n - n_u), Matrix::Zero(2 * n, 2 * n), Matrix::Zero(2 * n, n_u)};
   plant.A.topRightCorner(n, n).setIdentity();
   plant.A.bottomRows(n) = slopes.leftCols(2 * n);
   plant.B.bottomRows(n) = slopes.rightCols(n_u);

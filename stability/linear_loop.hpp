@@ -17,11 +17,12 @@ struct LinearLoop {
 
 /// A plant alone, linearised where it is with the motors' torques that go with that.
 struct LinearPlant {
-  double t = 0;         ///< s
-  PsiMotion at;         ///< n
-  Vector torque;        ///< n_u, what keeps the motors so
-  Vector free_torque;   ///< n - n_u, what would have to act on the free coordinates; 0 where they stay by themselves
-  Matrix A, B;          ///< 2n x 2n, 2n x n_u
+  double t = 0;        ///< s
+  PsiMotion at;        ///< n
+  Vector torque;       ///< n_u, what keeps the motors so
+  Vector free_torque;  ///< n - n_u, what would have to act on the free coordinates; 0 where they stay by
+                       ///< themselves
+  Matrix A, B;         ///< 2n x 2n, 2n x n_u
 };
 
 /// Makes them, from the exact derivatives of the equations of motion.

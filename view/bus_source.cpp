@@ -23,10 +23,11 @@ nlohmann::json desired_path(const Experiment& experiment) {
 
 const Experiment& with_all_measured(const Experiment& experiment) {
   if (experiment.plant.sensors.unmeasured.empty()) return experiment;
-  throw InputError("not_measured", {experiment.file.string()},
-                   "the plant's sensors leave free coordinates unmeasured (plant.sensors.free), so STATE doesn't say "
-                   "how they stand and no pose can be drawn; expected what `mixloop run --out` keeps, or all of them "
-                   "measured");
+  throw InputError(
+      "not_measured", {experiment.file.string()},
+      "the plant's sensors leave free coordinates unmeasured (plant.sensors.free), so STATE doesn't say "
+      "how they stand and no pose can be drawn; expected what `mixloop run --out` keeps, or all of them "
+      "measured");
 }
 
 }  // namespace

@@ -87,8 +87,11 @@ std::string description(const Model<double>& model, const Workspace<double>& ws,
       bodies.push_back(scene.bodies[b].name);
   }
   const bool several = coordinates.size() > 1;
-  const std::string who =
-      fmt::format("{}{} {}", driven ? "motor" : free ? "free coordinate" : "coordinate", several ? "s" : "", listed(coordinates));
+  const std::string who = fmt::format("{}{} {}",
+                                      driven ? "motor"
+                                      : free ? "free coordinate"
+                                             : "coordinate",
+                                      several ? "s" : "", listed(coordinates));
   if (!motion.each) return who + " can move together without any inertia against it";
   if (bodies.empty())
     return fmt::format("no body hangs on {}; expected one that it moves, or the scene without it", who);

@@ -78,9 +78,8 @@ std::vector<Listed> listed_in(const NodePtr& node, std::size_t most, const char*
     return all;
   }
   if (node->entries.empty() || node->entries.size() > most)
-    throw InputError(
-        "wrong_size", node->place,
-        fmt::format("found {} {}s; expected from 1 to {}", node->entries.size(), what, most));
+    throw InputError("wrong_size", node->place,
+                     fmt::format("found {} {}s; expected from 1 to {}", node->entries.size(), what, most));
   for (const auto& entry : node->entries) all.push_back(of_kind(entry, what));
   return all;
 }

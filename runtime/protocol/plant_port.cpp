@@ -50,9 +50,8 @@ PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& optio
   report.session = options_.session;
   const Header header{.n = options_.n, .session = options_.session, .config = options_.config};
   set_header(state_.message, header);
-  set_header(truth_.message, {.n = options_.n + options_.unmeasured,
-                              .session = options_.session,
-                              .config = options_.config});
+  set_header(truth_.message,
+             {.n = options_.n + options_.unmeasured, .session = options_.session, .config = options_.config});
   set_header(control_.message, header);
   bus_.subscribe<&PlantPort::on_command>(command_channel_, this);
   bus_.subscribe<&PlantPort::on_control>(control_channel_, this);

@@ -146,16 +146,16 @@ TEST(UnmeasuredPole, IsNoneToDrawOrJudgeByStateAlone) {
 }
 
 TEST(LinearPlantByCommand, HasAGainThatHoldsIt) {
-  const auto linear = told_by(
-      {"stability", experiment("cart_pole"), "--linear", "--regulator", "5000,100,0,0"});
+  const auto linear =
+      told_by({"stability", experiment("cart_pole"), "--linear", "--regulator", "5000,100,0,0"});
   EXPECT_NEAR(linear["A"][2][1], 2.6727, 5e-5);
   EXPECT_NEAR(linear["B"][3][0], 4.5455, 5e-5);
   EXPECT_EQ(linear["coordinates"], nlohmann::json::array({"cart", "pole"}));
   EXPECT_EQ(linear["n_motors"], 1);
   EXPECT_TRUE(linear["warnings"].empty());
   EXPECT_NEAR(linear["gain"][0][0], -70.7107, 4);
-  const auto held = told_by({"simulate", experiment("cart_pole"), "--set",
-                             "controller.gain=" + linear["gain"].dump()});
+  const auto held =
+      told_by({"simulate", experiment("cart_pole"), "--set", "controller.gain=" + linear["gain"].dump()});
   EXPECT_EQ(held["verdict"], "held");
 }
 

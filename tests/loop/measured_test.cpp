@@ -90,7 +90,8 @@ TEST_F(Measured, StandInTheirPlacesInWhatAControllerSees) {
 // A zero in the gain and no sensor are the same.
 TEST_F(Measured, MakeNoDifferenceToALawThatDoesNotTakeThem) {
   const std::string gain = "20, 0, -3, 8, 0, -1";
-  const auto all = simulated(load(fed_back(gain, ""))), some = simulated(load(fed_back(gain, "free: [second]")));
+  const auto all = simulated(load(fed_back(gain, ""))),
+             some = simulated(load(fed_back(gain, "free: [second]")));
   EXPECT_EQ(all.trajectory_sha256, some.trajectory_sha256);
 }
 
@@ -104,7 +105,8 @@ TEST_F(Measured, HaveTheNoiseThatTheyHave) {
 
 std::string followed(const std::string& law, const std::string& more, const std::string& sensors = "") {
   return "path: {line: {from: [0], to: [0.5]}, profile: cycloidal, duration: 1 s}\n"
-         "controller: {law: " + law + ", kp: [400], kv: [40]" + more + "}\nplant: {sensors: {" + sensors + "}}\n";
+         "controller: {law: " +
+         law + ", kp: [400], kv: [40]" + more + "}\nplant: {sensors: {" + sensors + "}}\n";
 }
 
 // The rigid model's M a: 4 kg, whatever hangs there.
@@ -133,7 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
     All, BadMeasured,
     testing::Values(
         BadInput{"NoSuch", fed_back("1, 0, 0, 1, 0, 0", "free: [secund]"), "undefined_symbol",
-                 "'secund' is no free coordinate of the scene; motors are always measured; did you mean 'second'?"},
+                 "'secund' is no free coordinate of the scene; motors are always measured; did you mean "
+                 "'second'?"},
         BadInput{"AMotor", fed_back("1, 0, 0, 1, 0, 0", "free: [cart]"), "undefined_symbol",
                  "motors are always measured"},
         BadInput{"Twice", fed_back("1, 0, 0, 1, 0, 0", "free: [first, first]"), "doubly_defined", "'first'"},

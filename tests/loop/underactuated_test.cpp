@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shipped mechanisms with free coordinates, against equations of motion that textbooks have, integrated on their
-// own in short steps with the torque held over each tick.
+// The shipped mechanisms with free coordinates, against equations of motion that textbooks have, integrated
+// on their own in short steps with the torque held over each tick.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -46,7 +46,8 @@ std::array<long double, 2> cart_pole(const State& s, long double F) {
 /// T = 1/2 (J0 + J2 sin^2) arm'^2 + 1/2 J2 pend'^2 + m L1 l2 cos arm' pend', V = m g l2 cos.
 std::array<long double, 2> furuta(const State& s, long double tau) {
   const long double m1 = 0.3L, m2 = 0.075L, l1 = 0.15L, l2 = 0.148L, L1 = 0.278L, g = 9.81L;
-  const long double J0 = 0.0248L + m1 * l1 * l1 + m2 * L1 * L1, J2 = 0.00386L + m2 * l2 * l2, K = m2 * L1 * l2;
+  const long double J0 = 0.0248L + m1 * l1 * l1 + m2 * L1 * L1, J2 = 0.00386L + m2 * l2 * l2,
+                    K = m2 * L1 * l2;
   const long double sine = std::sin(s[1]), cosine = std::cos(s[1]), twice = std::sin(2 * s[1]);
   return solved(J0 + J2 * sine * sine, K * cosine, J2,
                 tau - 1e-4L * s[2] - J2 * twice * s[2] * s[3] + K * sine * s[3] * s[3],
@@ -69,7 +70,8 @@ State ticked(Accelerations of, State s, long double tau, long double tick) {
     return sum;
   };
   for (int k = 0; k < steps; ++k) {
-    const State a = rate(s), b = rate(moved(s, a, h / 2)), c = rate(moved(s, b, h / 2)), d = rate(moved(s, c, h));
+    const State a = rate(s), b = rate(moved(s, a, h / 2)), c = rate(moved(s, b, h / 2)),
+                d = rate(moved(s, c, h));
     for (std::size_t i = 0; i < 4; ++i) s[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
   }
   return s;
@@ -98,7 +100,8 @@ TEST_P(HeldUpright, EndsWhereTheTextbooksEquationsEnd) {
   ASSERT_TRUE(measures.final_psi);
   const State expected = held_upright(of, experiment, measures.ticks);
   for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_NEAR((*measures.final_psi)[static_cast<Eigen::Index>(i)], static_cast<double>(expected[i]), 1e-11) << i;
+    EXPECT_NEAR((*measures.final_psi)[static_cast<Eigen::Index>(i)], static_cast<double>(expected[i]), 1e-11)
+        << i;
 }
 
 // Without the law it falls: the motion is no small one, and the equations are whole.
@@ -111,7 +114,8 @@ TEST_P(HeldUpright, FallsAsTheTextbooksEquationsDo) {
   const State expected = held_upright(of, experiment, measures.ticks);
   EXPECT_GT(std::abs(expected[1]), 2) << "it has fallen";
   for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_NEAR((*measures.final_psi)[static_cast<Eigen::Index>(i)], static_cast<double>(expected[i]), 1e-8) << i;
+    EXPECT_NEAR((*measures.final_psi)[static_cast<Eigen::Index>(i)], static_cast<double>(expected[i]), 1e-8)
+        << i;
 }
 
 TEST_P(HeldUpright, IsStableAndWarnsOfNothing) {
@@ -123,7 +127,8 @@ TEST_P(HeldUpright, IsStableAndWarnsOfNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, HeldUpright,
-                         testing::Values(std::pair("cart_pole", &cart_pole), std::pair("furuta_pendulum", &furuta)),
+                         testing::Values(std::pair("cart_pole", &cart_pole),
+                                         std::pair("furuta_pendulum", &furuta)),
                          [](const auto& info) { return std::string(info.param.first); });
 
 }  // namespace

@@ -62,8 +62,8 @@ TEST(HeldMotors, LeaveAPendulumThatSwingsOn) {
   const double energy = first * first / 2 - 10 * std::cos(kSwing);
   const auto exact = after(Method::dop853, 1000);
   EXPECT_NEAR(exact.second * exact.second / 2 - 10 * std::cos(exact.first), energy, 1e-12);
-  for (const auto& [method, most] : {std::pair(Method::rk4, 1e-10), std::pair(Method::gauss8, 1e-12),
-                                     std::pair(Method::rodas4, 1e-8)}) {
+  for (const auto& [method, most] :
+       {std::pair(Method::rk4, 1e-10), std::pair(Method::gauss8, 1e-12), std::pair(Method::rodas4, 1e-8)}) {
     const auto found = after(method, 1000);
     EXPECT_NEAR(found.first, exact.first, most) << static_cast<int>(method);
     EXPECT_NEAR(found.second, exact.second, 10 * most) << static_cast<int>(method);

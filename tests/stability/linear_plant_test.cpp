@@ -22,8 +22,8 @@ LinearPlant plant_at(const std::string& name, const Vector& psi) {
   return Linearisation(of_scene(name)).plant_at({psi, rest, rest}, 0);
 }
 
-// Control Tutorials for MATLAB and Simulink, Inverted Pendulum: System Modeling; the four decimals printed there,
-// and the quotients that they are of.
+// Control Tutorials for MATLAB and Simulink, Inverted Pendulum: System Modeling; the four decimals printed
+// there, and the quotients that they are of.
 TEST(LinearPlant, OfTheCartPoleIsThePublishedOne) {
   const LinearPlant plant = plant_at("cart_pole", Vector::Zero(2));
   const double M = 0.5, m = 0.2, b = 0.1, l = 0.3, I = 0.006, g = 9.8;

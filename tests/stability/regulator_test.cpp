@@ -14,7 +14,8 @@ namespace {
 // x+ = a x + b u: P = q + a^2 P r / (r + b^2 P), a quadratic; K = a b P / (r + b^2 P).
 TEST(Regulator, OfOneNumberIsThatOfAQuadratic) {
   Held held(Matrix::Zero(1, 1), Matrix::Zero(1, 1), 1);
-  for (const auto& [a, b, q, r] : {std::array{2.0, 1.0, 1.0, 1.0}, {0.5, 3.0, 2.0, 0.1}, {1.0, 0.01, 5.0, 7.0}}) {
+  for (const auto& [a, b, q, r] :
+       {std::array{2.0, 1.0, 1.0, 1.0}, {0.5, 3.0, 2.0, 0.1}, {1.0, 0.01, 5.0, 7.0}}) {
     held.Phi(0, 0) = a, held.Gamma(0, 0) = b;
     const double half = (r - q * b * b - a * a * r) / 2;
     const double P = (-half + std::sqrt(half * half + b * b * q * r)) / (b * b);
@@ -24,8 +25,8 @@ TEST(Regulator, OfOneNumberIsThatOfAQuadratic) {
   }
 }
 
-// The cart-pole of the Control Tutorials for MATLAB and Simulink, whose gain of lqr(A, B, diag(5000, 0, 100, 0), 1)
-// is printed there: ticks of 10 us are as good as none.
+// The cart-pole of the Control Tutorials for MATLAB and Simulink, whose gain of lqr(A, B, diag(5000, 0, 100,
+// 0), 1) is printed there: ticks of 10 us are as good as none.
 TEST(Regulator, OfTheCartPoleComesToThePublishedOneAsTicksGetShort) {
   const double p = 0.0132;
   const Matrix A{{0, 0, 1, 0},

@@ -36,7 +36,10 @@ struct Expected {
 class Multipliers {
  public:
   Multipliers(const ClosedMechanism& mechanism, const Scene& scene)
-      : mechanism_(mechanism), n_u_(scene.n_u()), home_psi_(widened(mechanism.home_psi())), home_(mechanism.pose()) {
+      : mechanism_(mechanism),
+        n_u_(scene.n_u()),
+        home_psi_(widened(mechanism.home_psi())),
+        home_(mechanism.pose()) {
     for (int j = 0; j < mechanism.m(); ++j)
       if (scene.coordinates[static_cast<std::size_t>(j)].is_solved())
         home_[j] = Wide(scene.coordinates[static_cast<std::size_t>(j)].home);

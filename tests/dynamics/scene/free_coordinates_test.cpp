@@ -43,7 +43,8 @@ std::vector<std::string> names(std::span<const Scene::Independent> coordinates) 
 }
 
 TEST(FreeCoordinates, StandBehindTheMotorsInTheOrderWritten) {
-  const Scene scene = read(hoist("{x: linear}", "free: [{paid: linear}, swing]", "{paid: 1 m, swing: 90 deg}"));
+  const Scene scene =
+      read(hoist("{x: linear}", "free: [{paid: linear}, swing]", "{paid: 1 m, swing: 90 deg}"));
   EXPECT_THAT(names(scene.independent), ElementsAre("x", "paid", "swing"));
   EXPECT_THAT(names(scene.motors()), ElementsAre("x"));
   EXPECT_EQ(scene.n(), 3);
