@@ -6,7 +6,7 @@
 #include "bench/hand_tuned.hpp"
 #include "bench/hand_tuned_simd.hpp"
 #include "bench/hand_tuned_sincos.hpp"
-#include "dynamics/program/sincos.hpp"
+#include "notation/functions/sincos.hpp"
 
 namespace mixloop::bench {
 namespace {
@@ -28,7 +28,7 @@ constexpr auto kThreeOfThePrograms = [](const double* psi) {
   const double x = 0.0234375 * psi[0], a = x - 0.0625 * psi[1], b = x - 0.0625 * psi[2];
   const double angles[3] = {a, b, (3.0 * a + kOffsetC) - 2.0 * b};
   double s[3], c[3];
-  mixloop_sincos::sincos_of(angles, s, c);
+  mixloop_functions::sincos_of(angles, s, c);
   return Angles<double>{s[0], c[0], s[1], c[1], s[2], c[2]};
 };
 

@@ -18,8 +18,8 @@ struct ExplainLine : CommonOptions {
 };
 
 nlohmann::json counts(const OperationCount& count) {
-  return {{"add", count.add},       {"mul", count.mul},     {"div", count.div},      {"sqrt", count.sqrt},
-          {"sincos", count.sincos}, {"other", count.other}, {"flops", count.flops()}};
+  return {{"add", count.add},       {"mul", count.mul},     {"div", count.div},       {"sqrt", count.sqrt},
+          {"sincos", count.sincos}, {"other", count.other}, {"flops", count.flops()}, {"fused", count.fused}};
 }
 
 nlohmann::json as_json(const Explanation& explanation) {

@@ -10,6 +10,8 @@
 
 #include "notation/dimension.hpp"
 #include "notation/errors.hpp"
+#include "notation/functions/elementary.hpp"
+#include "notation/functions/sincos.hpp"
 
 namespace mixloop {
 
@@ -115,7 +117,8 @@ T whole_power(const T& base, int exponent) {
 
 template <class T, class Lookup>
 T evaluate_node(const Formula& formula, int index, const Lookup& symbol) {
-  using std::atan2, std::cos, std::exp, std::log, std::sin, std::sqrt;
+  using mixloop_functions::atan2, mixloop_functions::cos, mixloop_functions::exp, mixloop_functions::log,
+      mixloop_functions::sin, std::sqrt;
   using Op = Formula::Operator;
   const Formula::Node& node = formula.nodes[static_cast<std::size_t>(index)];
   const auto left = [&] { return evaluate_node<T>(formula, node.left, symbol); };

@@ -89,27 +89,28 @@ std::optional<ThreeAxisArm> find_three_axis_arm(const Model<double>& whole) {
   const double across = third.cos_alpha * point[1] - third.sin_alpha * point[2];
   arm.lateral = second.s + third.s + third.sin_alpha * point[1] + third.cos_alpha * point[2];
   arm.upper = std::abs(second.a);
-  arm.fore = std::hypot(along, across);
+  arm.fore = std::sqrt(along * along + across * across);
   if (arm.upper == 0 || arm.fore == 0) return std::nullopt;
 
   mixture(model, chain, arm);
   const double turned = second.a < 0 ? std::numbers::pi : 0;
   arm.offset[1] += turned;
-  arm.offset[2] += std::atan2(across, along) - turned;
+  arm.offset[2] += mixloop_functions::atan2(across, along) - turned;
   const Eigen::FullPivLU<Eigen::Matrix3d> lu(arm.B);
   if (!lu.isInvertible()) return std::nullopt;
   arm.B_inverse = lu.inverse();
 
   const Eigen::Vector3d home = arm.angles(Eigen::Map<const Eigen::Vector3d>(model.scene->home.data()));
-  arm.front = sign_or_one(arm.base + arm.upper * std::cos(home[1]) + arm.fore * std::cos(home[1] + home[2]));
-  arm.elbow = sign_or_one(std::sin(home[2]));
+  arm.front = sign_or_one(arm.base + arm.upper * mixloop_functions::cos(home[1]) +
+                          arm.fore * mixloop_functions::cos(home[1] + home[2]));
+  arm.elbow = sign_or_one(mixloop_functions::sin(home[2]));
   return arm;
 }
 
 ArmReach reach_of(const ThreeAxisArm& arm, const Eigen::Vector3d& point) {
   const double beside = point.head<2>().squaredNorm() - arm.lateral * arm.lateral;
   const double X = arm.front * std::sqrt(std::max(beside, 0.0)) - arm.base;
-  return {beside, std::hypot(X, point[2] - arm.height)};
+  return {beside, std::sqrt(X * X + (point[2] - arm.height) * (point[2] - arm.height))};
 }
 
 }  // namespace mixloop

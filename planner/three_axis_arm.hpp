@@ -50,7 +50,7 @@ ArmReach reach_of(const ThreeAxisArm& arm, const Eigen::Vector3d& point);
 /// not finite where the point is out of reach. T: double, or a Taylor series for the rates as well.
 template <class T>
 std::array<T, 3> arm_angles(const ThreeAxisArm& arm, const std::array<T, 3>& p) {
-  using std::atan2, std::cos, std::sin, std::sqrt;
+  using mixloop_functions::atan2, mixloop_functions::cos, mixloop_functions::sin, std::sqrt;
   const auto number = [](double value) { return T(value); };
   // In the arm's plane: (base + X) along it, Y up from the shoulder.
   const T radial = number(arm.front) * sqrt(p[0] * p[0] + p[1] * p[1] - number(arm.lateral * arm.lateral));

@@ -28,7 +28,7 @@ struct PoseAlong {
   void turn(const X& angle) {
     turn_ = turns_ ? X(turn_ + angle) : angle;
     turns_ = true;
-    using std::cos, std::sin;
+    using mixloop_functions::cos, mixloop_functions::sin;
     turn(base_[0], base_[1], cos(turn_), sin(turn_));
   }
   void turn(const X& cosine, const X& sine) {

@@ -16,7 +16,7 @@ struct Varying {
 
 template <class T>
 Varying<T> varying(const typename Model<T>::Link& link, const Vec<T>& q) {
-  using std::cos, std::sin;
+  using mixloop_functions::cos, mixloop_functions::sin;
   Varying<T> now{link.cos_theta, link.sin_theta, link.s};
   if (link.coordinate >= 0 && link.prismatic) now.s = link.scale * q[link.coordinate] + link.s;
   if (link.coordinate >= 0 && !link.prismatic) {

@@ -97,7 +97,7 @@ namespace detail {
 /// 90 deg is a right angle although pi/2 is no double.
 template <class T>
 void constant_cos_sin(double angle, T& cosine, T& sine) {
-  using std::cos, std::sin;
+  using mixloop_functions::cos, mixloop_functions::sin;
   const double quarters = angle / (std::numbers::pi / 2);
   const double nearest = std::round(quarters);
   if (std::abs(quarters - nearest) <= 4e-16 * std::max(1.0, std::abs(nearest)) && std::abs(nearest) < 1e6) {
@@ -164,7 +164,7 @@ inline std::array<std::vector<int>, 2> parted_chains(const Scene& scene, int one
 /// The scene has been checked for its defaults; check_physical does so for others.
 template <class T>
 Model<T> make_model(const std::shared_ptr<const Scene>& scene, std::span<const T> parameters) {
-  using std::cos, std::sin;
+  using mixloop_functions::cos, mixloop_functions::sin;
   const Symbols symbols(*scene);
   Model<T> model;
   model.scene = scene;

@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "notation/functions/elementary.hpp"
+#include "notation/functions/sincos.hpp"
+
 namespace mixloop {
 
 /// A quantity along a line x(s) = x + s dx through the space of its arguments: value, first and second
@@ -39,29 +42,29 @@ struct Taylor {
     return {v, d, (a.dd / T(2) - d * d) / v};
   }
   friend Taylor sin(const Taylor& a) {
-    using std::cos, std::sin;
+    using mixloop_functions::cos, mixloop_functions::sin;
     const T s = sin(a.v), c = cos(a.v);
     return {s, c * a.d, c * a.dd - s * (a.d * a.d)};
   }
   friend Taylor cos(const Taylor& a) {
-    using std::cos, std::sin;
+    using mixloop_functions::cos, mixloop_functions::sin;
     const T s = sin(a.v), c = cos(a.v);
     return {c, -(s * a.d), -(s * a.dd) - c * (a.d * a.d)};
   }
   friend Taylor atan2(const Taylor& y, const Taylor& x) {
-    using std::atan2;
+    using mixloop_functions::atan2;
     const T r2 = x.v * x.v + y.v * y.v;
     const T d = (x.v * y.d - y.v * x.d) / r2;
     const T r2d = T(2) * (x.v * x.d + y.v * y.d);
     return {atan2(y.v, x.v), d, (x.v * y.dd - y.v * x.dd - d * r2d) / r2};
   }
   friend Taylor exp(const Taylor& a) {
-    using std::exp;
+    using mixloop_functions::exp;
     const T v = exp(a.v);
     return {v, v * a.d, v * (a.dd + a.d * a.d)};
   }
   friend Taylor log(const Taylor& a) {
-    using std::log;
+    using mixloop_functions::log;
     const T d = a.d / a.v;
     return {log(a.v), d, a.dd / a.v - d * d};
   }

@@ -72,16 +72,6 @@ bool succeeds(pid_t child) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-std::string read_processor() {
-  std::ifstream file("/proc/cpuinfo");
-  std::string identity;
-  for (std::string line; std::getline(file, line) && !line.empty();)
-    if (line.starts_with("model") || line.starts_with("flags") || line.starts_with("CPU part") ||
-        line.starts_with("Features"))
-      identity += line + '\n';
-  return identity;
-}
-
 }  // namespace
 
 std::optional<Compiler> find_compiler() {
@@ -99,11 +89,6 @@ const std::vector<std::string>& machine_code_flags() {
                                                  // has put into one vector, in spite of contract=off.
                                                  "-fno-tree-slp-vectorize"};
   return flags;
-}
-
-const std::string& processor_identity() {
-  static const std::string identity = read_processor();
-  return identity;
 }
 
 bool build_shared_object(const Compiler& compiler, const fs::path& source, const fs::path& result,

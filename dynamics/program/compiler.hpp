@@ -21,9 +21,6 @@ std::optional<Compiler> find_compiler();
 /// machine code and interpreter give the same bits.
 const std::vector<std::string>& machine_code_flags();
 
-/// The processor's model and features, as far as code built with -march=native depends on them.
-const std::string& processor_identity();
-
 /// Builds a shared object from one source file. False on failure; `complaint` then has what the compiler
 /// said, shortened.
 bool build_shared_object(const Compiler& compiler, const std::filesystem::path& source,

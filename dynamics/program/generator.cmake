@@ -1,10 +1,11 @@
 # What writes programs: the sources, their hash (part of every cached program's key, so that a changed
-# generator finds no entry of the old one's), and the text of sine and cosine that emitted code carries.
+# generator finds no entry of the old one's), and the texts of functions that emitted code carries.
 set(MIXLOOP_GENERATOR_SOURCES
     symbolic/angles.cpp
     symbolic/articulated.cpp
     symbolic/closed_chains.cpp
     symbolic/derivative.cpp
+    symbolic/double_double.cpp
     symbolic/dyad.cpp
     symbolic/evaluation_angles.cpp
     symbolic/expression.cpp
@@ -26,6 +27,7 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/single_unknown.cpp
     symbolic/three_distances.cpp
     symbolic/tracer.cpp
+    program/affine_angles.cpp
     program/short_chains.cpp
     program/program.cpp
     program/source.cpp
@@ -35,14 +37,16 @@ set(MIXLOOP_GENERATOR_SOURCES
 
 set(MIXLOOP_GENERATOR_HASH "")
 file(GLOB generator_headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
-     symbolic/*.hpp procedure/*.hpp scene/*.hpp program/*.hpp ../notation/formula.hpp)
+     symbolic/*.hpp procedure/*.hpp scene/*.hpp program/*.hpp ../notation/formula.hpp ../notation/functions/*.hpp)
 foreach(file IN LISTS MIXLOOP_GENERATOR_SOURCES generator_headers)
   file(SHA256 ${CMAKE_CURRENT_SOURCE_DIR}/${file} hash)
   string(SHA256 MIXLOOP_GENERATOR_HASH "${MIXLOOP_GENERATOR_HASH}${hash}")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
 endforeach()
 
-file(READ program/sincos.hpp MIXLOOP_SINCOS_TEXT)
-file(READ program/sincos_lanes.hpp MIXLOOP_SINCOS_LANES_TEXT)
-string(REPLACE "#pragma once\n" "" MIXLOOP_SINCOS_TEXT "${MIXLOOP_SINCOS_TEXT}")
-configure_file(program/sincos_text.cpp.in sincos_text.cpp @ONLY)
+foreach(text fused elementary sincos)
+  file(READ ../notation/functions/${text}.hpp MIXLOOP_${text}_TEXT)
+  string(REGEX REPLACE "#pragma once\n|#include \"[^\n]*\n" "" MIXLOOP_${text}_TEXT "${MIXLOOP_${text}_TEXT}")
+endforeach()
+file(READ program/lanes_text.hpp MIXLOOP_lanes_TEXT)
+configure_file(program/function_texts.cpp.in function_texts.cpp @ONLY)

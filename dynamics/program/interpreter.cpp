@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/program/interpreter.hpp"
 
-#include "dynamics/program/sincos.hpp"
+#include "dynamics/program/processor.hpp"
 #include "dynamics/symbolic/operations.hpp"
+#include "notation/functions/sincos.hpp"
+
+// The loops below are compiled twice: fused operations are calls of the C library's where the processor isn't
+// known to have them.
+#if defined(__x86_64__)
+#define MIXLOOP_WITH_FMA [[gnu::target("fma,avx2")]]
+#else
+#define MIXLOOP_WITH_FMA
+#endif
 
 namespace mixloop {
 namespace {
@@ -12,43 +21,36 @@ using Loop = void (*)(const Tape::Run& run, double* values, const Slot* operand)
 
 /// A run of one of the graph's operations.
 template <Op op>
-void each(const Tape::Run& run, double* values, const Slot* operand) {
-  constexpr auto value = operation(op).value;
+[[gnu::always_inline]] inline void run_of(const Tape::Run& run, double* values, const Slot* operand) {
+  constexpr int takes = arity(op);
   double* result = values + run.first;
-  for (std::uint32_t k = 0; k < run.count; ++k) {
-    if constexpr (op == Op::sin) {
-      mixloop_sincos::sincos(values[operand[k]], result + 2 * k, result + 2 * k + 1);
-    } else if constexpr (is_binary(op)) {
-      result[k] = value(values[operand[2 * k]], values[operand[2 * k + 1]]);
-    } else {
-      result[k] = value(values[operand[k]], 0.0);
-    }
+  for (std::uint32_t k = 0; k < run.count; ++k, operand += takes) {
+    if constexpr (op == Op::sin)
+      mixloop_functions::sincos(values[operand[0]], result + 2 * k, result + 2 * k + 1);
+    else
+      result[k] = operation(op).value(values[operand[0]], takes > 1 ? values[operand[1]] : 0.0,
+                                      takes > 2 ? values[operand[2]] : 0.0);
   }
 }
 
-template <class Operation>
-void each_of_three(const Tape::Run& run, double* values, const Slot* operand) {
-  double* result = values + run.first;
-  for (std::uint32_t k = 0; k < run.count; ++k, operand += 3)
-    result[k] = Operation()(values[operand[0]], values[operand[1]], values[operand[2]]);
+template <Op op>
+void plain(const Tape::Run& run, double* values, const Slot* operand) {
+  run_of<op>(run, values, operand);
 }
 
-struct TimesPlus {
-  double operator()(double a, double b, double c) const { return a * b + c; }
-};
-struct TimesMinus {
-  double operator()(double a, double b, double c) const { return a * b - c; }
-};
-struct MinusTimes {
-  double operator()(double a, double b, double c) const { return c - a * b; }
-};
+template <Op op>
+MIXLOOP_WITH_FMA void with_fma(const Tape::Run& run, double* values, const Slot* operand) {
+  run_of<op>(run, values, operand);
+}
+
+using Loops = std::array<Loop, kOps>;
 
 template <std::size_t... op>
-constexpr std::array<Loop, kTapeOps> loops_of(std::index_sequence<op...>) {
-  return {&each<static_cast<Op>(op)>..., &each_of_three<TimesPlus>, &each_of_three<TimesMinus>,
-          &each_of_three<MinusTimes>};
+Loops loops_of(std::index_sequence<op...>) {
+  return has_fma() ? Loops{&with_fma<static_cast<Op>(op)>...} : Loops{&plain<static_cast<Op>(op)>...};
 }
-constexpr std::array<Loop, kTapeOps> kLoops = loops_of(std::make_index_sequence<kOps>());
+
+const Loops kLoops = loops_of(std::make_index_sequence<kOps>());
 
 void run_tape(const std::vector<Tape::Run>& runs, const Slot* operands, double* values) noexcept {
   for (const Tape::Run& run : runs)

@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/program/lanes.hpp"
 
+#include "dynamics/program/processor.hpp"
 #include "dynamics/program/source.hpp"
 
 namespace mixloop {
-namespace {
-
-int native_width() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx512f") ? 8 : 4;
-#else
-  return 4;
-#endif
-}
-
-}  // namespace
 
 std::unique_ptr<LaneCode> LaneCode::load(const std::string& key, const std::function<Program()>& trace,
                                          std::string& complaint) {
   SourceStyle style;
   style.lanes = true;
   auto code = std::make_unique<LaneCode>();
-  code->width_ = native_width();
+  code->width_ = lane_width();
   auto source = [&] { return source_head(style) + source_of(trace(), style); };
   SharedObject library = SharedObject::cached("lanes:" + key, source, complaint);
   const std::string name = style.prefix + "_" + std::to_string(code->width_);

@@ -15,7 +15,9 @@ Program::Stage stage_of(const ExpressionNode& node, const std::vector<Program::S
   if (node.op == Op::constant) return Stage::constant;
   if (node.op == Op::input)
     return static_cast<Block>(node.a) == Block::parameter ? Stage::set_up : Stage::run;
-  return is_binary(node.op) ? std::max(known[node.a], known[node.b]) : known[node.a];
+  Stage stage = Stage::constant;
+  for (NodeId x : Operands(node)) stage = std::max(stage, known[x]);
+  return stage;
 }
 
 }  // namespace
@@ -31,10 +33,8 @@ Program make_program(const Graph& graph, std::span<const NodeId> outputs) {
       now[id] = now[node.a];
       continue;
     }
-    if (!is_leaf(node.op)) {
-      node.a = now[node.a];
-      if (is_binary(node.op)) node.b = now[node.b];
-    }
+    NodeId* const operands[] = {&node.a, &node.b, &node.c};
+    for (int i = 0; i < arity(node.op); ++i) *operands[i] = now[*operands[i]];
     now[id] = static_cast<NodeId>(program.nodes.size());
     program.stages.push_back(stage_of(node, program.stages));
     program.nodes.push_back(node);
@@ -51,15 +51,16 @@ OperationCount Program::operations(Stage stage) const {
     const auto counter = operation(nodes[id].op).count;
     if (counter != nullptr && partner[id] > id) ++(count.*counter);  // a pair with its first
   }
+  count.add += count.fused;
+  count.mul += count.fused;
   return count;
 }
 
 std::vector<NodeId> Program::hoisted() const {
   std::vector<bool> used(nodes.size(), false);
   for (NodeId id = 0; id < nodes.size(); ++id) {
-    if (stages[id] != Stage::run || nodes[id].op == Op::input) continue;
-    used[nodes[id].a] = true;
-    if (is_binary(nodes[id].op)) used[nodes[id].b] = true;
+    if (stages[id] == Stage::run)
+      for (NodeId x : Operands(nodes[id])) used[x] = true;
   }
   for (NodeId output : outputs) used[output] = true;
   std::vector<NodeId> result;
@@ -79,6 +80,15 @@ std::vector<NodeId> Program::partners() const {
     partner[id] = known->second;
   }
   return partner;
+}
+
+double estimated_time(const OperationCount& count) {
+  const auto times = [](std::size_t number, Op op) {
+    return static_cast<double>(number) * operation(op).cost;
+  };
+  return times(count.add - count.fused, Op::add) + times(count.mul - count.fused, Op::mul) +
+         times(count.fused, Op::fma) + times(count.div, Op::div) + times(count.sqrt, Op::sqrt) +
+         times(count.sincos, Op::sin) + times(count.sincos, Op::cos) + times(count.other, Op::atan2);
 }
 
 }  // namespace mixloop

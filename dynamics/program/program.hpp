@@ -31,6 +31,9 @@ struct Program {
   OperationCount operations(Stage stage) const;
 };
 
+/// Time of an evaluation's machine code in units of an addition, by the costs of operations.hpp.
+double estimated_time(const OperationCount& count);
+
 Program make_program(const Graph& graph, std::span<const NodeId> outputs);
 
 }  // namespace mixloop

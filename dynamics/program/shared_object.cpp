@@ -8,6 +8,7 @@
 
 #include "dynamics/program/cache.hpp"
 #include "dynamics/program/compiler.hpp"
+#include "dynamics/program/processor.hpp"
 #include "notation/sha256.hpp"
 
 namespace mixloop {

@@ -5,14 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "dynamics/program/statements.hpp"
 #include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
 
-extern const char* const kSincosText;       // generated from sincos.hpp
-extern const char* const kSincosLanesText;  // generated from sincos_lanes.hpp
+// Generated from the files of these names.
+extern const char* const kFusedText;
+extern const char* const kElementaryText;
+extern const char* const kSincosText;
+extern const char* const kLanesText;
 
 namespace {
 
@@ -123,7 +127,8 @@ class Writer {
 
   // A constant or set-up value as an output, which may be a vector of lanes.
   std::string as_real(NodeId id) const {
-    return program_.stages[id] == Stage::run ? name_[id] : fmt::format("mixloop_lift<Real>({})", name_[id]);
+    return program_.stages[id] == Stage::run ? name_[id]
+                                             : fmt::format("mixloop_functions::lift<Real>({})", name_[id]);
   }
 
   void exports() {
@@ -174,7 +179,7 @@ class Writer {
   }
 
   void write(const Statement& step, const char* type) {
-    if (!step.batch.empty()) return sines_and_cosines(step.batch, type);
+    if (!step.batch.empty()) return sines_and_cosines(step, type);
     name_[step.node] = fmt::format("v{}", step.node);
     line("  const {} v{} = {};", type, step.node, right_side(program_.nodes[step.node]));
   }
@@ -190,23 +195,52 @@ class Writer {
     if (!is_function && row.arity == 1) return fmt::format("{}{}", row.text, name_[n.a]);
     if (!is_function) return fmt::format("{} {} {}", name_[n.a], row.text, name_[n.b]);
     std::string arguments = lifted(n.a);
-    if (row.arity == 2) arguments += ", " + lifted(n.b);
+    if (row.arity > 1) arguments += ", " + lifted(n.b);
+    if (row.arity > 2) arguments += ", " + lifted(n.c);
     return fmt::format("{}({})", row.text, arguments);
   }
 
   std::string lifted(NodeId id) const { return in_run_ ? as_real(id) : name_[id]; }
 
-  void sines_and_cosines(const std::vector<NodeId>& batch, const char* type) {
-    std::string angles;
-    for (NodeId angle : batch) angles += (angles.empty() ? "" : ", ") + name_[angle];
+  void sines_and_cosines(const Statement& step, const char* type) {
+    const std::vector<NodeId>& batch = step.batch;
     const std::size_t first = batches_++, count = batch.size();
-    line(
-        "  const {0} a{1}[] = {{{2}}};\n  {0} s{1}[{3}], c{1}[{3}];\n  mixloop_sincos::sincos_of<{3}>(a{1}, "
-        "s{1}, c{1});",
-        type, first, angles, count);
+    line("  {0} s{1}[{2}], c{1}[{2}];", type, first, count);
+    if (step.angles.empty()) {
+      std::string angles;
+      for (NodeId angle : batch) angles += (angles.empty() ? "" : ", ") + name_[angle];
+      line("  const {0} a{1}[] = {{{2}}};\n  mixloop_functions::sincos_of<{3}>(a{1}, s{1}, c{1});", type,
+           first, angles, count);
+    } else {
+      affine_angles(step.angles, type, first);
+    }
     for (std::size_t i = 0; i < count; ++i)
       for (NodeId id : statements_.pair_of(batch[i]))
         name_[id] = fmt::format("{}{}[{}]", program_.nodes[id].op == Op::sin ? 's' : 'c', first, i);
+  }
+
+  // A row of factors for each coordinate that one of the angles has.
+  void affine_angles(const std::vector<AffineAngle>& angles, const char* type, std::size_t first) {
+    std::map<NodeId, std::vector<double>> rows;
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      for (const auto& [index, factor] : angles[i].terms)
+        rows.try_emplace(index, angles.size(), 0.0).first->second[i] = factor;
+    std::string coordinates, factors;
+    const auto row_of = [](const std::vector<double>& row) {
+      std::string text;
+      for (double x : row) text += (text.empty() ? "" : ", ") + number(x);
+      return text;
+    };
+    for (const auto& [index, row] : rows) {
+      coordinates += fmt::format("{}psi[{}]", coordinates.empty() ? "" : ", ", index);
+      factors += fmt::format("{}{{{}}}", factors.empty() ? "" : ", ", row_of(row));
+    }
+    std::vector<double> offsets;
+    for (const AffineAngle& angle : angles) offsets.push_back(angle.constant);
+    line(
+        "  const {0} q{1}[] = {{{2}}};\n  constexpr double f{1}[{3}][{4}] = {{{5}}}, o{1}[] = {{{6}}};\n"
+        "  mixloop_functions::sincos_of_affine<{3}, {4}>(q{1}, f{1}, o{1}, s{1}, c{1});",
+        type, first, coordinates, rows.size(), angles.size(), factors, row_of(offsets));
   }
 
   const Program& program_;
@@ -220,12 +254,7 @@ class Writer {
 };
 
 constexpr const char* kLibrarySincos = R"(
-#if defined(__GNUC__)
-#define MIXLOOP_INLINE inline __attribute__((always_inline))
-#else
-#define MIXLOOP_INLINE inline
-#endif
-namespace mixloop_sincos {
+namespace mixloop_functions {
 MIXLOOP_INLINE void sincos(double x, double* sine, double* cosine) {
   *sine = sin(x);
   *cosine = cos(x);
@@ -237,7 +266,24 @@ MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount],
 #endif
   for (int i = 0; i < kCount; ++i) sincos(x[i], sine + i, cosine + i);
 }
-}  // namespace mixloop_sincos
+template <int kTerms, int kCount>
+MIXLOOP_INLINE void sincos_of_affine(const double (&q)[kTerms], const double (&factor)[kTerms][kCount],
+                                     const double (&constant)[kCount], double (&sine)[kCount],
+                                     double (&cosine)[kCount]) {
+#if defined(__GNUC__)
+#pragma GCC unroll 4
+#endif
+  for (int i = 0; i < kCount; ++i) {
+    double x = constant[i];
+#if defined(__GNUC__)
+#pragma GCC unroll 4
+#endif
+    for (int k = 0; k < kTerms; ++k)
+      if (factor[k][i] != 0) x = fma(q[k], factor[k][i], x);
+    sincos(x, sine + i, cosine + i);
+  }
+}
+}  // namespace mixloop_functions
 )";
 
 constexpr const char* kFunctions = R"(
@@ -246,23 +292,21 @@ constexpr const char* kFunctions = R"(
 #else
 #define MIXLOOP_PART inline
 #endif
-namespace {
-template <class Real>
-inline Real mixloop_lift(double x) { return x - Real(); }
-[[maybe_unused]] inline double mixloop_sqrt(double x) { return sqrt(x); }
-[[maybe_unused]] inline double mixloop_exp(double x) { return exp(x); }
-[[maybe_unused]] inline double mixloop_log(double x) { return log(x); }
-[[maybe_unused]] inline double mixloop_atan2(double y, double x) { return atan2(y, x); }
-}  // namespace
+namespace mixloop_functions {
+inline double root(double x) { return sqrt(x); }
+}  // namespace mixloop_functions
 )";
 
 }  // namespace
 
 std::string source_head(const SourceStyle& style) {
-  std::string head = "#include <math.h>\n";
+  // Vectors are passed among functions that are inlined alone: no calling convention matters.
+  std::string head = "#if defined(__GNUC__)\n#pragma GCC diagnostic ignored \"-Wpsabi\"\n#endif\n";
+  head += kFusedText;
   head += style.trigonometry == Trigonometry::inlined ? kSincosText : kLibrarySincos;
+  head += kElementaryText;
   head += kFunctions;
-  if (style.lanes) head += kSincosLanesText;
+  if (style.lanes) head += kLanesText;
   return head;
 }
 

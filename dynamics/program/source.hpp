@@ -9,7 +9,7 @@ namespace mixloop {
 
 /// Which sine and cosine emitted code calls.
 enum class Trigonometry : std::uint8_t {
-  inlined,    ///< dynamics/program/sincos.hpp, in the text: the same bits everywhere, vectorisable
+  inlined,    ///< notation/functions/sincos.hpp, in the text: the same bits everywhere, vectorisable
   c_library,  ///< sin and cos of <math.h>
 };
 

@@ -25,19 +25,24 @@ std::vector<Statement> Statements::of(Stage stage) const {
     taken[id] = true;
     if (!is_trigonometric(program_.nodes[id].op)) steps.push_back({id, {}});  // those with their batch
   };
-  for (const std::vector<NodeId>& batch : angle_batches(stage)) {
+  const auto batches = angle_batches(stage);
+  const std::vector<bool> inside = inside_angles(batches);
+  for (NodeId id = 0; id < inside.size(); ++id)
+    if (inside[id]) taken[id] = true;
+  for (const std::vector<NodeId>& batch : batches) {
     for (NodeId angle : batch)
       for (NodeId id : with_operands(angle, stage, taken)) take(id);
-    steps.push_back({0, batch});
+    steps.push_back({0, batch, written_together(batch)});
   }
   for (NodeId id = 0; id < program_.nodes.size(); ++id) take(id);
   return steps;
 }
 
 std::vector<NodeId> Statements::takes(const Statement& step) const {
+  if (!step.angles.empty()) return {};
   if (!step.batch.empty()) return step.batch;
-  const ExpressionNode& n = program_.nodes[step.node];
-  return is_binary(n.op) ? std::vector{n.a, n.b} : std::vector{n.a};
+  const Operands operands(program_.nodes[step.node]);
+  return {operands.begin(), operands.end()};
 }
 
 std::vector<NodeId> Statements::gives(const Statement& step) const {
@@ -45,6 +50,34 @@ std::vector<NodeId> Statements::gives(const Statement& step) const {
   std::vector<NodeId> pairs;
   for (NodeId angle : step.batch) pairs.insert(pairs.end(), pairs_[angle].begin(), pairs_[angle].end());
   return pairs;
+}
+
+// Of one angle the processor gains nothing.
+std::vector<AffineAngle> Statements::written_together(const std::vector<NodeId>& batch) const {
+  std::vector<AffineAngle> angles;
+  for (NodeId angle : batch)
+    if (auto written = written_angle(program_, angle)) angles.push_back(std::move(*written));
+  if (batch.size() < 2 || angles.size() < batch.size()) return {};
+  return angles;
+}
+
+// What nothing but angles of such batches takes: it is part of them.
+std::vector<bool> Statements::inside_angles(const std::vector<std::vector<NodeId>>& batches) const {
+  std::vector<int> uses(program_.nodes.size(), 0);
+  for (NodeId output : program_.outputs) ++uses[output];
+  for (const ExpressionNode& n : program_.nodes)
+    if (!is_trigonometric(n.op))
+      for (NodeId x : Operands(n)) ++uses[x];
+  std::vector<bool> inside(program_.nodes.size(), false);
+  for (const auto& batch : batches) {
+    if (written_together(batch).empty()) continue;
+    for (NodeId id : batch)
+      for (; program_.nodes[id].op == Op::fma && uses[id] == 0; id = program_.nodes[id].c) {
+        inside[id] = true;
+        --uses[program_.nodes[id].c];
+      }
+  }
+  return inside;
 }
 
 // Angles whose sines and cosines can be had together: none of a batch's angles needs another's sine.
@@ -55,7 +88,8 @@ std::vector<std::vector<NodeId>> Statements::angle_batches(Stage stage) const {
   for (NodeId id = 0; id < program_.nodes.size(); ++id) {
     const ExpressionNode& n = program_.nodes[id];
     if (is_leaf(program_.nodes[id].op) || program_.stages[id] != stage) continue;
-    depth[id] = std::max(depth[n.a], is_binary(n.op) ? depth[n.b] : 0) + is_trigonometric(n.op);
+    for (NodeId x : Operands(n)) depth[id] = std::max(depth[id], depth[x]);
+    depth[id] += is_trigonometric(n.op);
     if (!is_trigonometric(n.op)) continue;
     levels.resize(std::max(levels.size(), static_cast<std::size_t>(depth[id])));
     auto& level = levels[static_cast<std::size_t>(depth[id]) - 1];
@@ -81,8 +115,7 @@ std::vector<NodeId> Statements::with_operands(NodeId root, Stage stage,
     if (seen[id] || is_leaf(program_.nodes[id].op) || program_.stages[id] != stage || taken[id]) continue;
     seen[id] = true;
     wanted.push_back(id);
-    waiting.push_back(program_.nodes[id].a);
-    if (is_binary(program_.nodes[id].op)) waiting.push_back(program_.nodes[id].b);
+    for (NodeId x : Operands(program_.nodes[id])) waiting.push_back(x);
   }
   std::sort(wanted.begin(), wanted.end());
   return wanted;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "dynamics/program/affine_angles.hpp"
 #include "dynamics/program/program.hpp"
 
 namespace mixloop {
@@ -11,6 +12,7 @@ namespace mixloop {
 struct Statement {
   NodeId node = 0;
   std::vector<NodeId> batch;
+  std::vector<AffineAngle> angles = {};  ///< of the batch, where all of it is written_angle
 };
 
 /// A program in the order in which it is written down: angles first, so that their sines and cosines are
@@ -27,6 +29,8 @@ class Statements {
 
  private:
   std::vector<std::vector<NodeId>> angle_batches(Program::Stage stage) const;
+  std::vector<AffineAngle> written_together(const std::vector<NodeId>& batch) const;
+  std::vector<bool> inside_angles(const std::vector<std::vector<NodeId>>& batches) const;
   std::vector<NodeId> with_operands(NodeId root, Program::Stage stage, const std::vector<bool>& taken) const;
 
   const Program& program_;

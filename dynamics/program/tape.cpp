@@ -9,12 +9,10 @@ namespace {
 
 // An instruction before it has its place: which nodes it takes and which it gives.
 struct Instruction {
-  TapeOp op;
+  Op op;
   Program::Stage stage;
   std::vector<NodeId> takes, gives;
 };
-
-TapeOp plain(Op op) { return op == Op::cos ? TapeOp::sincos : static_cast<TapeOp>(op); }
 
 class TapeMaker {
  public:
@@ -46,52 +44,21 @@ class TapeMaker {
     }
   }
 
-  // How many operations (and outputs) take each node's value.
-  std::vector<std::uint32_t> uses() const {
-    std::vector<std::uint32_t> count(program_.nodes.size(), 0);
-    for (NodeId output : program_.outputs) count[output] += 2;  // its slot is needed
-    for (const ExpressionNode& n : program_.nodes) {
-      if (is_leaf(n.op)) continue;
-      ++count[n.a];
-      if (is_binary(n.op)) ++count[n.b];
-    }
-    return count;
-  }
-
-  bool can_merge(NodeId product, NodeId into, const std::vector<std::uint32_t>& use) const {
-    return program_.nodes[product].op == Op::mul && use[product] == 1 &&
-           program_.stages[product] == program_.stages[into];
-  }
-
   void gather() {
     const std::vector<NodeId> partner = program_.partners();
-    const std::vector<std::uint32_t> use = uses();
-    std::vector<bool> merged(program_.nodes.size(), false);
-    for (NodeId id = static_cast<NodeId>(program_.nodes.size()); id-- > 0;) {
+    for (NodeId id = 0; id < program_.nodes.size(); ++id) {
       const ExpressionNode& n = program_.nodes[id];
-      if (is_leaf(n.op) || merged[id]) continue;
-      Instruction made{plain(n.op), program_.stages[id], {n.a}, {id}};
-      if (is_binary(n.op)) made.takes.push_back(n.b);
-      if (made.op == TapeOp::sincos) {
+      if (is_leaf(n.op)) continue;
+      const Operands operands(n);
+      Instruction made{n.op, program_.stages[id], {operands.begin(), operands.end()}, {id}};
+      if (n.op == Op::sin || n.op == Op::cos) {
         const NodeId other = partner[id];
-        if (other < program_.nodes.size()) merged[other] = true;
+        if (other < id) continue;  // it has been with its partner
+        made.op = Op::sin;
         made.gives = n.op == Op::sin ? std::vector{id, other} : std::vector{other, id};
-      } else if (n.op == Op::add || n.op == Op::sub) {
-        merge_product(n, id, use, merged, made);
       }
       instructions_.push_back(std::move(made));
     }
-    std::reverse(instructions_.begin(), instructions_.end());
-  }
-
-  void merge_product(const ExpressionNode& n, NodeId id, const std::vector<std::uint32_t>& use,
-                     std::vector<bool>& merged, Instruction& made) const {
-    const bool left = can_merge(n.a, id, use);
-    if (!left && !can_merge(n.b, id, use)) return;
-    const NodeId product = left ? n.a : n.b;
-    merged[product] = true;
-    made.op = n.op == Op::add ? TapeOp::times_plus : left ? TapeOp::times_minus : TapeOp::minus_times;
-    made.takes = {program_.nodes[product].a, program_.nodes[product].b, left ? n.b : n.a};
   }
 
   // Greedy: a run goes on as long as an instruction of its kind is ready; then comes the kind that most
@@ -103,7 +70,7 @@ class TapeMaker {
     for (std::size_t i = 0; i < instructions_.size(); ++i)
       for (NodeId id : instructions_[i].gives)
         if (id < maker.size()) maker[id] = i;
-    std::array<std::vector<std::size_t>, kTapeOps> ready;
+    std::array<std::vector<std::size_t>, kOps> ready;
     for (std::size_t i = 0; i < instructions_.size(); ++i) {
       if (instructions_[i].stage != stage) continue;
       for (NodeId id : instructions_[i].takes) {
@@ -118,8 +85,7 @@ class TapeMaker {
       auto most = std::max_element(ready.begin(), ready.end(),
                                    [](const auto& x, const auto& y) { return x.size() < y.size(); });
       if (most->empty()) return runs;
-      runs.push_back({static_cast<TapeOp>(most - ready.begin()), 0,
-                      static_cast<Tape::Slot>(tape_.values.size()),
+      runs.push_back({static_cast<Op>(most - ready.begin()), 0, static_cast<Tape::Slot>(tape_.values.size()),
                       static_cast<std::uint32_t>(tape_.operands.size())});
       for (std::size_t next = 0; next < most->size(); ++next) {
         const Instruction& done = instructions_[(*most)[next]];

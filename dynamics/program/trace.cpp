@@ -158,15 +158,6 @@ Program trace(const std::shared_ptr<const Scene>& scene, Purpose purpose, Tracin
   }
 }
 
-double estimated_time(const OperationCount& count) {
-  const auto times = [](std::size_t number, Op op) {
-    return static_cast<double>(number) * operation(op).cost;
-  };
-  return times(count.add, Op::add) + times(count.mul, Op::mul) + times(count.div, Op::div) +
-         times(count.sqrt, Op::sqrt) + times(count.sincos, Op::sin) + times(count.sincos, Op::cos) +
-         times(count.other, Op::atan2);
-}
-
 namespace {
 
 // The literal procedure's Jacobians take m columns a body: on larger scenes it is not worth recording.

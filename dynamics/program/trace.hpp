@@ -42,7 +42,4 @@ TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose);
 ///   the scene's size, the solution (start_size()), and the last corrections.
 Program trace_closures(const std::shared_ptr<const Scene>& scene);
 
-/// Time of an evaluation's machine code in units of an addition, by the costs of operations.hpp.
-double estimated_time(const OperationCount& count);
-
 }  // namespace mixloop

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/scene/continuous_angles.hpp"
+#include "notation/functions/sincos.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -164,9 +165,9 @@ class Turned {
   }
 
   int turned(const Formula::Node& node, double h) {
-    const int y_cos = times(node.left, std::cos(h)), x_sin = times(node.right, std::sin(h));
+    const int y_cos = times(node.left, mixloop_functions::cos(h)), x_sin = times(node.right, mixloop_functions::sin(h));
     const int y = apply(Op::subtract, y_cos, x_sin);
-    const int x_cos = times(node.right, std::cos(h)), y_sin = times(node.left, std::sin(h));
+    const int x_cos = times(node.right, mixloop_functions::cos(h)), y_sin = times(node.left, mixloop_functions::sin(h));
     const int x = apply(Op::add, x_cos, y_sin);
     const int angle = apply(Op::atan2, y, x);
     return apply(Op::add, angle, constant(h));

@@ -11,6 +11,7 @@
 
 #include "dynamics/scene/scene_keys.hpp"
 #include "dynamics/scene/screws.hpp"
+#include "notation/functions/elementary.hpp"
 #include "notation/value.hpp"
 
 namespace mixloop {
@@ -30,9 +31,9 @@ JointAxis axis_along(double x, double y, double z) {
   // -x, -y and -z are x, y and z backwards: right angles alone.
   const bool backwards = (x != 0) + (y != 0) + (z != 0) == 1 && x + y + z < 0;
   if (backwards) x = std::abs(x), y = std::abs(y), z = std::abs(z);
-  if (x == 0) return {0, y == 0 && z > 0 ? 0 : std::atan2(-y, z), backwards};
-  return {y == 0 ? std::copysign(kQuarter, x) : std::atan2(x, -y), std::atan2(std::hypot(x, y), z),
-          backwards};
+  if (x == 0) return {0, y == 0 && z > 0 ? 0 : mixloop_functions::atan2(-y, z), backwards};
+  return {y == 0 ? std::copysign(kQuarter, x) : mixloop_functions::atan2(x, -y),
+          mixloop_functions::atan2(std::sqrt(x * x + y * y), z), backwards};
 }
 
 JointAxis read_axis(const NodePtr& node, SceneDraft& draft) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "dynamics/symbolic/graph.hpp"
+#include "notation/functions/sincos.hpp"
 
 namespace mixloop {
 namespace {
@@ -45,8 +46,8 @@ const AffineSum& Graph::affine(NodeId id) {
     const NodeId at = waiting.back();
     const std::size_t before = waiting.size();
     if (const ExpressionNode& n = nodes_[at]; is_affine(n)) {
-      if (!affine_.contains(n.a)) waiting.push_back(n.a);
-      if (is_binary(n.op) && !affine_.contains(n.b)) waiting.push_back(n.b);
+      for (NodeId x : Operands(n))
+        if (!affine_.contains(x)) waiting.push_back(x);
     }
     if (waiting.size() > before) continue;
     waiting.pop_back();
@@ -82,7 +83,8 @@ std::pair<NodeId, NodeId> Graph::rotated(NodeId sine, NodeId cosine, double by) 
   auto cleaned = [](double x) {  // a quarter turn's cosine is 6e-17 only because pi/2 is rounded
     return std::fabs(x) < 2e-16 ? 0.0 : std::fabs(std::fabs(x) - 1.0) < 2e-16 ? std::copysign(1.0, x) : x;
   };
-  const NodeId s = constant(cleaned(std::sin(by))), c = constant(cleaned(std::cos(by)));
+  const NodeId s = constant(cleaned(mixloop_functions::sin(by))),
+               c = constant(cleaned(mixloop_functions::cos(by)));
   return {binary(Op::add, binary(Op::mul, sine, c), binary(Op::mul, cosine, s)),
           binary(Op::sub, binary(Op::mul, cosine, c), binary(Op::mul, sine, s))};
 }
@@ -120,7 +122,7 @@ std::optional<std::pair<NodeId, NodeId>> Graph::from_known(const AffineSum& sum)
 
 NodeId Graph::held(NodeId of, unsigned tag) {
   if (number(of)) return of;
-  return intern({Op::hold, of, tag, 0.0});
+  return intern({Op::hold, of, tag});
 }
 
 void Graph::set_pair(NodeId angle, NodeId cosine, NodeId sine) {
@@ -134,9 +136,8 @@ void Graph::forget_pairs_through(std::span<const NodeId> places) {
   std::vector<bool> through(nodes_.size(), false);
   for (const NodeId place : places) through[place] = true;
   for (NodeId id = 0; id < nodes_.size(); ++id) {
-    const ExpressionNode& n = nodes_[id];
-    if (n.op == Op::constant || n.op == Op::input) continue;
-    if (through[n.a] || (is_binary(n.op) && through[n.b])) through[id] = true;
+    for (NodeId x : Operands(nodes_[id]))
+      if (through[x]) through[id] = true;
   }
   const auto is_through = [&](NodeId sine, NodeId cosine) { return through[sine] || through[cosine]; };
   std::erase_if(angles_, [&](const Angle& angle) { return is_through(angle.sine, angle.cosine); });
@@ -159,7 +160,7 @@ std::pair<NodeId, NodeId> Graph::sine_cosine(NodeId angle) {
     pair.first = unary(Op::neg, pair.first);
   } else {
     ++angles_seen_.own;
-    pair = {intern({Op::sin, angle, 0, 0.0}), intern({Op::cos, angle, 0, 0.0})};
+    pair = {intern({Op::sin, angle}), intern({Op::cos, angle})};
     angles_.push_back({sum, pair.first, pair.second});
   }
   pairs_.emplace(angle, pair);

@@ -106,7 +106,7 @@ double HomeValues::of(const Expression& x) {
     else if (n.op == Op::input)
       known_.push_back(input(static_cast<Block>(n.a), n.b));
     else
-      known_.push_back(apply(n.op, known_[n.a], is_binary(n.op) ? known_[n.b] : 0.0));
+      known_.push_back(apply(n.op, known_[n.a], known_[n.b], known_[n.c]));
   }
   return known_[node];
 }
@@ -118,7 +118,8 @@ double HomeValues::input(Block block, std::size_t index) const {
   for (int j : scene_.started) {
     const double home = scene_.coordinates[static_cast<std::size_t>(j)].home;
     const std::size_t size = scene_.turns(j) ? 3 : 1;
-    if (index < size) return index == 0 ? home : index == 1 ? std::cos(home) : std::sin(home);
+    if (index < size)
+      return index == 0 ? home : index == 1 ? mixloop_functions::cos(home) : mixloop_functions::sin(home);
     index -= size;
   }
   return 0;

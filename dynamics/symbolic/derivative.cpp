@@ -37,12 +37,14 @@ std::vector<NodeId> tangents(Graph& graph, std::span<const NodeId> outputs, std:
   auto moves = [&](NodeId id) { return !dot[id].is_number() || dot[id].number() != 0.0; };
   for (NodeId id = 0; id < is_needed.size(); ++id) {
     const ExpressionNode n = graph[id];
-    if (!is_needed[id] || is_input[id] || is_leaf(n.op)) continue;
-    const bool by_a = moves(n.a), by_b = is_binary(n.op) && moves(n.b);
-    if (!by_a && !by_b) continue;
+    const Operands operands(n);
+    if (!is_needed[id] || is_input[id] || std::none_of(operands.begin(), operands.end(), moves)) continue;
     const Partials d = partials(graph, id);
-    if (by_a) dot[id] += d.a * dot[n.a];
-    if (by_b) dot[id] += d.b * dot[n.b];
+    const Expression* slope = d.data();
+    for (NodeId x : operands) {
+      if (moves(x)) dot[id] += *slope * dot[x];
+      ++slope;
+    }
   }
   std::vector<NodeId> result;
   for (NodeId output : outputs) result.push_back(dot[output].node());
@@ -57,7 +59,8 @@ std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId
   for (NodeId input : inputs) moves[input] = is_input[input] = true;
   for (NodeId id = 0; id < is_needed.size(); ++id) {
     const ExpressionNode n = graph[id];
-    if (!is_leaf(n.op) && (moves[n.a] || (is_binary(n.op) && moves[n.b]))) moves[id] = true;
+    for (NodeId x : Operands(n))
+      if (moves[x]) moves[id] = true;
   }
   std::vector<Expression> bar(is_needed.size());
   bar[output] = 1.0;
@@ -66,8 +69,11 @@ std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId
     if (!is_needed[id] || !moves[id] || is_input[id] || is_leaf(n.op)) continue;
     if (bar[id].is_number() && bar[id].number() == 0.0) continue;
     const Partials d = partials(graph, id);
-    if (moves[n.a]) bar[n.a] += bar[id] * d.a;
-    if (is_binary(n.op) && moves[n.b]) bar[n.b] += bar[id] * d.b;
+    const Expression* slope = d.data();
+    for (NodeId x : Operands(n)) {
+      if (moves[x]) bar[x] += bar[id] * *slope;
+      ++slope;
+    }
   }
   std::vector<NodeId> result;
   for (NodeId input : inputs) result.push_back(bar[input].node());
@@ -83,11 +89,9 @@ std::vector<NodeId> substituted(Graph& graph, std::span<const NodeId> outputs, s
   for (NodeId id = 0; id < is_needed.size(); ++id) {
     const ExpressionNode n = graph[id];
     if (!is_needed[id] || is_leaf(n.op) || now[id] != id) continue;
-    if (!is_binary(n.op)) {
-      if (now[n.a] != n.a) now[id] = graph.unary(n.op, now[n.a]);
-    } else if (now[n.a] != n.a || now[n.b] != n.b) {
-      now[id] = graph.binary(n.op, now[n.a], now[n.b]);
-    }
+    const Operands operands(n);
+    if (std::all_of(operands.begin(), operands.end(), [&](NodeId x) { return now[x] == x; })) continue;
+    now[id] = graph.operation(n.op, now[n.a], now[n.b], now[n.c]);
   }
   std::vector<NodeId> result;
   for (NodeId output : outputs) result.push_back(now[output]);

@@ -13,7 +13,7 @@ namespace mixloop {
 namespace {
 
 using Angle = EvaluationAngles::Angle;
-using Complex = std::complex<long double>;
+using Complex = std::complex<DoubleDouble>;
 
 constexpr int kHighest = 2;                                // multiple of one evaluation angle
 constexpr int kHighestDegree = 4;                          // sum of multiples
@@ -121,12 +121,12 @@ std::size_t rank_of(const std::set<Angle>& harmonics) {
 }
 
 // Phases that make a term of the angle, or of its double, a pure cosine.
-std::vector<long double> phases_of(const Angle& angle, const HarmonicEnergy& energy) {
-  std::vector<long double> phases{0};
-  const auto offer = [&](long double phase) {
-    const long double quarter = std::numbers::pi_v<long double> / 2;
-    for (long double known : phases)
-      if (std::abs(std::remainder(phase - known, quarter)) < 1e-9L) return;
+std::vector<DoubleDouble> phases_of(const Angle& angle, const HarmonicEnergy& energy) {
+  std::vector<DoubleDouble> phases{0};
+  const auto offer = [&](DoubleDouble phase) {
+    const DoubleDouble quarter = kPi / 2;
+    for (DoubleDouble known : phases)
+      if (abs(remainder(phase - known, quarter)) < 1e-9) return;
     if (phases.size() < 5) phases.push_back(phase);
   };
   Angle twice{};

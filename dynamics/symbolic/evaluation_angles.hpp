@@ -14,7 +14,7 @@ struct EvaluationAngles {
   using Angle = std::array<std::int16_t, kMostBaseAngles>;
 
   std::vector<Angle> angles;
-  std::vector<std::vector<long double>> phases;  ///< of each angle: constants worth adding to it; 0 first
+  std::vector<std::vector<DoubleDouble>> phases;  ///< of each angle: constants worth adding to it; 0 first
   std::map<Angle, std::vector<int>> combinations;
 };
 

@@ -10,13 +10,14 @@
 
 namespace mixloop {
 
-double apply(Op op, double a, double b) { return operation(op).value(a, b); }
+double apply(Op op, double a, double b, double c) { return mixloop::operation(op).value(a, b, c); }
 
 namespace {
 
 std::uint64_t hash_of(const ExpressionNode& n) {
   std::uint64_t h = static_cast<std::uint64_t>(n.op) * 0x9E3779B97F4A7C15u;
-  for (std::uint64_t part : {(std::uint64_t{n.a} << 32) | n.b, std::bit_cast<std::uint64_t>(n.value)}) {
+  for (std::uint64_t part : {(std::uint64_t{n.a} << 32) | n.b,
+                             std::bit_cast<std::uint64_t>(n.value) ^ (std::uint64_t{n.c} << 32)}) {
     h = (h ^ part) * 0xBF58476D1CE4E5B9u;
     h ^= h >> 29;
   }
@@ -24,7 +25,7 @@ std::uint64_t hash_of(const ExpressionNode& n) {
 }
 
 bool are_equal(const ExpressionNode& a, const ExpressionNode& b) {
-  return a.op == b.op && a.a == b.a && a.b == b.b &&
+  return a.op == b.op && a.a == b.a && a.b == b.b && a.c == b.c &&
          std::bit_cast<std::uint64_t>(a.value) == std::bit_cast<std::uint64_t>(b.value);
 }
 
@@ -65,11 +66,11 @@ std::optional<NodeId> Graph::known(const ExpressionNode& node) const {
 }
 
 NodeId Graph::constant(double value) {
-  return intern({Op::constant, 0, 0, value == 0.0 ? 0.0 : value});  // one zero, whatever its sign
+  return intern({.op = Op::constant, .value = value == 0.0 ? 0.0 : value});  // one zero, whatever its sign
 }
 
 NodeId Graph::input(Block block, std::size_t index) {
-  return intern({Op::input, static_cast<NodeId>(block), static_cast<NodeId>(index), 0.0});
+  return intern({Op::input, static_cast<NodeId>(block), static_cast<NodeId>(index)});
 }
 
 std::optional<double> Graph::number(NodeId id) const {
@@ -89,7 +90,7 @@ NodeId Graph::unary(Op op, NodeId a) {
     default:
       break;
   }
-  return intern({op, a, 0, 0.0});
+  return intern({op, a});
 }
 
 NodeId Graph::binary(Op op, NodeId a, NodeId b) {
@@ -107,7 +108,17 @@ NodeId Graph::binary(Op op, NodeId a, NodeId b) {
     default:
       break;
   }
-  return intern({op, a, b, 0.0});
+  return intern({op, a, b});
+}
+
+NodeId Graph::fused(Op op, NodeId a, NodeId b, NodeId c) {
+  const auto x = number(a), y = number(b), z = number(c);
+  if (x && y && z) return constant(apply(op, *x, *y, *z));
+  return intern({op, std::min(a, b), std::max(a, b), c});
+}
+
+NodeId Graph::operation(Op op, NodeId a, NodeId b, NodeId c) {
+  return arity(op) == 1 ? unary(op, a) : arity(op) == 2 ? binary(op, a, b) : fused(op, a, b, c);
 }
 
 NodeId Graph::neg(NodeId a) {
@@ -115,7 +126,7 @@ NodeId Graph::neg(NodeId a) {
   if (n.op == Op::constant) return constant(-n.value);
   if (n.op == Op::neg) return n.a;
   if (n.op == Op::sub) return sub(n.b, n.a);
-  return intern({Op::neg, a, 0, 0.0});
+  return intern({Op::neg, a});
 }
 
 NodeId Graph::add(NodeId a, NodeId b) {
@@ -131,10 +142,10 @@ NodeId Graph::add(NodeId a, NodeId b) {
     if (auto y = n.op == Op::add ? number(n.b) : std::nullopt) return add(constant(*x + *y), n.a);
     if (auto y = n.op == Op::sub ? number(n.a) : std::nullopt) return sub(constant(*x + *y), n.b);
     if (*x < 0.0)
-      if (auto other = known({Op::sub, constant(-*x), b, 0.0})) return intern({Op::neg, *other, 0, 0.0});
+      if (auto other = known({Op::sub, constant(-*x), b})) return intern({Op::neg, *other});
   }
   if (a == b) return mul(constant(2.0), a);
-  return intern({Op::add, std::min(a, b), std::max(a, b), 0.0});
+  return intern({Op::add, std::min(a, b), std::max(a, b)});
 }
 
 NodeId Graph::sub(NodeId a, NodeId b) {
@@ -152,8 +163,8 @@ NodeId Graph::sub(NodeId a, NodeId b) {
     // -c - y is the opposite of c + y.
     if (*x < 0.0) return neg(add(constant(-*x), b));
   }
-  if (auto other = known({Op::sub, b, a, 0.0})) return intern({Op::neg, *other, 0, 0.0});
-  return intern({Op::sub, a, b, 0.0});
+  if (auto other = known({Op::sub, b, a})) return intern({Op::neg, *other});
+  return intern({Op::sub, a, b});
 }
 
 NodeId Graph::mul(NodeId a, NodeId b) {
@@ -169,7 +180,7 @@ NodeId Graph::mul(NodeId a, NodeId b) {
     if (auto y = n.op == Op::mul ? number(n.a) : std::nullopt) return mul(constant(*x * *y), n.b);
     if (auto y = n.op == Op::mul ? number(n.b) : std::nullopt) return mul(constant(*x * *y), n.a);
   }
-  return intern({Op::mul, std::min(a, b), std::max(a, b), 0.0});
+  return intern({Op::mul, std::min(a, b), std::max(a, b)});
 }
 
 NodeId Graph::div(NodeId a, NodeId b) {
@@ -179,7 +190,7 @@ NodeId Graph::div(NodeId a, NodeId b) {
   if (is(b, Op::neg)) return neg(binary(Op::div, a, nodes_[b].a));
   // A division takes the time of several products; by a constant it is one, at half an ulp.
   if (auto y = number(b); y && std::isnormal(1.0 / *y)) return mul(constant(1.0 / *y), a);
-  return intern({Op::div, a, b, 0.0});
+  return intern({Op::div, a, b});
 }
 
 // sin(u)^2 + cos(u)^2 = 1
@@ -206,9 +217,8 @@ std::vector<bool> needed(const Graph& graph, std::span<const NodeId> roots, std:
   for (NodeId root : roots) is_needed[root] = true;
   for (NodeId id = static_cast<NodeId>(count); id-- > 0;) {
     const ExpressionNode& n = graph[id];
-    if (!is_needed[id] || is_leaf(n.op)) continue;
-    is_needed[n.a] = true;
-    if (is_binary(n.op)) is_needed[n.b] = true;
+    if (is_needed[id])
+      for (NodeId x : Operands(n)) is_needed[x] = true;
   }
   return is_needed;
 }

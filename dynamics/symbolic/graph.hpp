@@ -16,7 +16,8 @@ namespace mixloop {
 /// A node's place in its graph. Operands come before the node that uses them.
 using NodeId = std::uint32_t;
 
-/// What a node computes. `constant` and `input` are leaves; the rest take one operand (a) or two (a, b).
+/// What a node computes. `constant` and `input` are leaves; the rest take one operand (a), two (a, b) or
+/// three.
 enum class Op : std::uint8_t {
   constant,
   input,
@@ -32,14 +33,16 @@ enum class Op : std::uint8_t {
   mul,
   div,
   atan2,
+  fma,   ///< a b + c, rounded once
+  fms,   ///< a b - c
+  fnma,  ///< c - a b
 };
 
-constexpr std::size_t kOps = 14;
+constexpr std::size_t kOps = 17;
 
 /// What else is known of an operation is a row in operations.hpp.
 constexpr bool is_leaf(Op op) { return op <= Op::input; }
-/// True for the operations of two operands.
-constexpr bool is_binary(Op op) { return op >= Op::add; }
+constexpr int arity(Op op) { return is_leaf(op) ? 0 : op < Op::add ? 1 : op < Op::fma ? 2 : 3; }
 
 /// Where an input comes from. Whatever depends on parameters alone is computed before the run.
 enum class Block : std::uint8_t {
@@ -57,7 +60,21 @@ struct ExpressionNode {
   Op op = Op::constant;
   NodeId a = 0;
   NodeId b = 0;
+  NodeId c = 0;
   double value = 0.0;
+};
+
+/// The nodes that an operation takes, in their order; none of a leaf.
+class Operands {
+ public:
+  explicit constexpr Operands(const ExpressionNode& node)
+      : ids_{node.a, node.b, node.c}, size_(arity(node.op)) {}
+  constexpr const NodeId* begin() const { return ids_.data(); }
+  constexpr const NodeId* end() const { return ids_.data() + size_; }
+
+ private:
+  std::array<NodeId, 3> ids_;
+  int size_;
 };
 
 /// A scene's equations that take more operations than a graph may hold: no tracer records them.
@@ -89,6 +106,10 @@ class Graph {
   NodeId input(Block block, std::size_t index);
   NodeId unary(Op op, NodeId a);
   NodeId binary(Op op, NodeId a, NodeId b);
+  /// a b + c and its like (Op::fma, fms, fnma), which nothing is simplified through.
+  NodeId fused(Op op, NodeId a, NodeId b, NodeId c);
+  /// Any operation; of an operand that it doesn't take: anything.
+  NodeId operation(Op op, NodeId a, NodeId b, NodeId c);
 
   const ExpressionNode& operator[](NodeId id) const { return nodes_[id]; }
   std::size_t size() const { return nodes_.size(); }
@@ -157,7 +178,7 @@ class Graph {
 };
 
 /// The operation on numbers, as every evaluator computes it.
-double apply(Op op, double a, double b = 0.0);
+double apply(Op op, double a, double b = 0.0, double c = 0.0);
 
 /// For each of the first `count` nodes, whether one of the roots, which stand among them, needs it.
 std::vector<bool> needed(const Graph& graph, std::span<const NodeId> roots, std::size_t count);

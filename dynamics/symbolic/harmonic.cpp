@@ -8,18 +8,27 @@
 namespace mixloop {
 namespace {
 
-// What the outputs take in a run.
+bool is_sum(Op op) { return op == Op::add || op == Op::sub; }
+
+// What the outputs take in a run: each sum takes in a product that nothing else needs.
 double cost_of(const Graph& graph, std::span<const NodeId> outputs) {
   const std::vector<bool> is_needed = needed(graph, outputs);
   std::vector<bool> runs(graph.size(), false);
+  std::vector<int> uses(graph.size(), 0);
+  for (NodeId output : outputs) ++uses[output];
+  for (NodeId id = 0; id < graph.size(); ++id)
+    if (is_needed[id])
+      for (NodeId x : Operands(graph[id])) ++uses[x];
+  const auto is_taken_in = [&](NodeId id) { return graph[id].op == Op::mul && uses[id] == 1 && runs[id]; };
   double cost = 0;
   for (NodeId id = 0; id < graph.size(); ++id) {
     const ExpressionNode& node = graph[id];
-    if (node.op == Op::input)
-      runs[id] = static_cast<Block>(node.a) != Block::parameter;
-    else if (!is_leaf(node.op))
-      runs[id] = runs[node.a] || (is_binary(node.op) && runs[node.b]);
-    if (is_needed[id] && runs[id]) cost += operation(node.op).cost;
+    if (node.op == Op::input) runs[id] = static_cast<Block>(node.a) != Block::parameter;
+    for (NodeId x : Operands(node))
+      if (runs[x]) runs[id] = true;
+    if (!is_needed[id] || !runs[id]) continue;
+    cost += operation(node.op).cost;
+    if (is_sum(node.op) && (is_taken_in(node.a) || is_taken_in(node.b))) cost -= operation(Op::mul).cost;
   }
   return cost;
 }

@@ -16,25 +16,25 @@ constexpr std::size_t kTermBudget = 48;  // terms of one element of a transform
 
 struct OutOfBudget {};  // caught in harmonic_energy
 
-using Row = std::vector<long double>;
+using Row = std::vector<DoubleDouble>;
 using Angle = std::array<std::int16_t, kMostBaseAngles>;
 
 // A coordinate as an affine function of psi.
 struct Affine {
   Row slope;
-  long double offset = 0;
+  DoubleDouble offset = 0;
 };
 
 // p/q within round-off of x, q small.
-std::optional<std::pair<long, long>> rational(long double x) {
+std::optional<std::pair<long, long>> rational(DoubleDouble x) {
   long p0 = 0, q0 = 1, p1 = 1, q1 = 0;
-  long double rest = x;
+  DoubleDouble rest = x;
   for (int i = 0; i < 20; ++i) {
-    const long double whole = std::floor(rest);
-    if (std::abs(whole) > 1e6L) return std::nullopt;
+    const DoubleDouble whole = floor(rest);
+    if (abs(whole) > 1e6) return std::nullopt;
     const long p2 = static_cast<long>(whole) * p1 + p0, q2 = static_cast<long>(whole) * q1 + q0;
     if (q2 > 5000) return std::nullopt;
-    if (std::abs(static_cast<long double>(p2) / q2 - x) <= 1e-14L * std::abs(x)) return std::pair{p2, q2};
+    if (abs(DoubleDouble(p2) / q2 - x) <= 1e-14 * abs(x)) return std::pair{p2, q2};
     p0 = p1, q0 = q1, p1 = p2, q1 = q2;
     rest = 1 / (rest - whole);
   }
@@ -89,7 +89,7 @@ class EnergyMaker {
       if (link.prismatic) continue;
       if (!link.theta.is_number()) return false;
       Row row = coordinates_[static_cast<std::size_t>(link.coordinate)].slope;
-      for (auto& x : row) x *= static_cast<long double>(link.scale.number());
+      for (auto& x : row) x *= DoubleDouble(link.scale.number());
       rows.push_back(row);
     }
     if (!rational_base(rows)) irrational_base(rows);
@@ -108,7 +108,7 @@ class EnergyMaker {
     }
     for (std::size_t k = 0; k < denominator.size(); ++k) {
       Row angle(static_cast<std::size_t>(n_), 0);
-      angle[k] = 1.0L / denominator[k];
+      angle[k] = 1.0 / denominator[k];
       made_.space.angles.push_back(angle);
     }
     return true;
@@ -127,16 +127,16 @@ class EnergyMaker {
     const auto same = std::find(base.begin(), base.end(), row);
     const bool diagonal = base.size() == static_cast<std::size_t>(n_) &&
                           std::all_of(base.begin(), base.end(), [&](const Row& b) {
-                            return std::count(b.begin(), b.end(), 0.0L) == n_ - 1;
+                            return std::count(b.begin(), b.end(), 0.0) == n_ - 1;
                           });
     if (!diagonal) {
       angle[static_cast<std::size_t>(same - base.begin())] = 1;
       return angle;
     }
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const long double whole = std::round(row[k] / base[k][k]);
-      if (std::abs(whole) > 30000) throw OutOfBudget{};
-      angle[k] = static_cast<std::int16_t>(whole);
+      const DoubleDouble whole = round(row[k] / base[k][k]);
+      if (abs(whole) > 30000) throw OutOfBudget{};
+      angle[k] = static_cast<std::int16_t>(static_cast<long>(whole));
     }
     return angle;
   }
@@ -161,12 +161,12 @@ class EnergyMaker {
   std::array<HarmonicSum, 3> cos_sin_shift(const Model<Expression>::Link& link) {
     if (link.coordinate < 0) return {sum_of(link.cos_theta), sum_of(link.sin_theta), sum_of(link.s)};
     const Affine& q = coordinates_[static_cast<std::size_t>(link.coordinate)];
-    const long double scale = link.scale.number();
+    const DoubleDouble scale = link.scale.number();
     Row row = q.slope;
     for (auto& x : row) x *= scale;
     if (!link.prismatic) {
       const Angle angle = angle_of(row);
-      const long double phase = scale * q.offset + link.theta.number();
+      const DoubleDouble phase = scale * q.offset + link.theta.number();
       return {HarmonicSum::cosine(angle, phase), HarmonicSum::sine(angle, phase), sum_of(link.s)};
     }
     HarmonicSum shift = sum_of(link.s);
@@ -217,7 +217,7 @@ class EnergyMaker {
       if (link.coordinate >= 0) {
         Row own = coordinates_[static_cast<std::size_t>(link.coordinate)].slope;
         for (std::size_t k = 0; k < own.size(); ++k) {
-          own[k] *= static_cast<long double>(link.scale.number());
+          own[k] *= DoubleDouble(link.scale.number());
           if (!link.prismatic) rate[k] += own[k];
         }
         made_.axes.push_back(own);
@@ -242,7 +242,7 @@ class EnergyMaker {
     Matrix4 J;
     HarmonicSum trace;
     for (Eigen::Index i = 0; i < 3; ++i) trace += sum_of(body.inertia(i, i));
-    trace *= 0.5L;
+    trace *= 0.5;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
         J[i][j].add_product(moment[i], center[j]);

@@ -17,7 +17,8 @@ struct HarmonicEnergy {
   std::vector<Expression> atoms;            ///< powers n, n + 1, ...: numbers that depend on parameters
   std::vector<std::vector<HarmonicSum>> M;  ///< M[k][l], l <= k
   HarmonicSum potential;
-  std::vector<std::vector<long double>> axes;  ///< rates (rows in psi) of joints and of sums of parallel ones
+  std::vector<std::vector<DoubleDouble>>
+      axes;  ///< rates (rows in psi) of joints and of sums of parallel ones
 };
 
 /// nullopt where the scene is none of that kind (coordinates that are not affine in psi, with constant

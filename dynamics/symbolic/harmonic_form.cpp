@@ -9,9 +9,9 @@
 namespace mixloop {
 namespace {
 
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using Complex = std::complex<long double>;
-using Row = std::vector<long double>;
+using FineMatrix = Eigen::Matrix<DoubleDouble, Eigen::Dynamic, Eigen::Dynamic>;
+using Complex = std::complex<DoubleDouble>;
+using Row = std::vector<DoubleDouble>;
 
 // One of the opposites (key, -key): the first angle that isn't zero is positive.
 bool is_canonical(const HarmonicKey& key) {
@@ -25,7 +25,7 @@ bool is_constant_angle(const HarmonicKey& key) {
 
 // The coefficients of one key in all elements of the mass matrix.
 struct Sheet {
-  LongMatrix real, imaginary, scale;
+  FineMatrix real, imaginary, scale;
 };
 
 std::map<HarmonicKey, Sheet> sheets_of(const HarmonicEnergy& energy) {
@@ -38,8 +38,8 @@ std::map<HarmonicKey, Sheet> sheets_of(const HarmonicEnergy& energy) {
         if (!is_canonical(key)) continue;
         auto [found, fresh] = sheets.try_emplace(key);
         Sheet& sheet = found->second;
-        if (fresh) sheet.real = sheet.imaginary = sheet.scale = LongMatrix::Zero(n, n);
-        const long double twice = is_constant_angle(key) ? 1 : 2;  // the opposite key's share
+        if (fresh) sheet.real = sheet.imaginary = sheet.scale = FineMatrix::Zero(n, n);
+        const DoubleDouble twice = is_constant_angle(key) ? 1 : 2;  // the opposite key's share
         sheet.real(k, l) = sheet.real(l, k) = twice * term.value.real();
         sheet.imaginary(k, l) = sheet.imaginary(l, k) = twice * term.value.imag();
         sheet.scale(k, l) = sheet.scale(l, k) = twice * std::abs(term.value);
@@ -49,15 +49,15 @@ std::map<HarmonicKey, Sheet> sheets_of(const HarmonicEnergy& energy) {
   return sheets;
 }
 
-void clean(LongMatrix& part, const LongMatrix& scale) {
+void clean(FineMatrix& part, const FineMatrix& scale) {
   for (Eigen::Index i = 0; i < part.size(); ++i)
     if (is_round_off(part.data()[i], scale.data()[i])) part.data()[i] = 0;
 }
 
 std::map<HarmonicKey, Sheet> transformed(const std::map<HarmonicKey, Sheet>& sheets,
-                                         const LongMatrix& B_inverse) {
+                                         const FineMatrix& B_inverse) {
   std::map<HarmonicKey, Sheet> result;
-  const LongMatrix size = B_inverse.cwiseAbs();
+  const FineMatrix size = B_inverse.cwiseAbs();
   for (const auto& [key, sheet] : sheets) {
     Sheet now{B_inverse.transpose() * sheet.real * B_inverse,
               B_inverse.transpose() * sheet.imaginary * B_inverse, size.transpose() * sheet.scale * size};
@@ -89,17 +89,16 @@ std::vector<std::vector<int>> blocks_of(const std::map<HarmonicKey, Sheet>& shee
   return blocks;
 }
 
-LongMatrix within(const LongMatrix& matrix, const std::vector<int>& block) { return matrix(block, block); }
+FineMatrix within(const FineMatrix& matrix, const std::vector<int>& block) { return matrix(block, block); }
 
 // A / x, x the most common size of its elements (of several the first): many elements become one.
-Eigen::MatrixXd normalised(const LongMatrix& A, long double& factor) {
+Eigen::MatrixXd normalised(const FineMatrix& A, DoubleDouble& factor) {
   std::size_t most = 0;
   for (Eigen::Index i = 0; i < A.size(); ++i) {
-    const long double x = A.data()[i];
+    const DoubleDouble x = A.data()[i];
     if (x == 0) continue;
     std::size_t count = 0;
-    for (Eigen::Index j = 0; j < A.size(); ++j)
-      count += std::abs(std::abs(A.data()[j]) - std::abs(x)) < 1e-13L * std::abs(x);
+    for (Eigen::Index j = 0; j < A.size(); ++j) count += abs(abs(A.data()[j]) - abs(x)) < 1e-13 * abs(x);
     if (count > most) most = count, factor = x;
   }
   Eigen::MatrixXd result = (A / factor).cast<double>();
@@ -111,15 +110,15 @@ Eigen::MatrixXd normalised(const LongMatrix& A, long double& factor) {
   return result;
 }
 
-void add_to_group(BlockForm& form, std::size_t block, const HarmonicKey& key, const LongMatrix& A,
+void add_to_group(BlockForm& form, std::size_t block, const HarmonicKey& key, const FineMatrix& A,
                   Complex direction) {
   if (A.isZero(0)) return;
-  long double factor = 1;
+  DoubleDouble factor = 1;
   const Eigen::MatrixXd unit = normalised(A, factor);
   for (double sign : {1.0, -1.0}) {
     for (WaveGroup& group : form.groups) {
       if (group.block != block || !(group.A - sign * unit).isZero(1e-13)) continue;
-      group.f[key] += static_cast<long double>(sign) * factor * direction;
+      group.f[key] += DoubleDouble(sign) * factor * direction;
       return;
     }
   }
@@ -131,14 +130,14 @@ void add_to_group(BlockForm& form, std::size_t block, const HarmonicKey& key, co
 WaveSum waves_of(const HarmonicSum& sum) {
   WaveSum waves;
   for (const auto& [key, term] : sum.terms())
-    if (is_canonical(key)) waves[key] = (is_constant_angle(key) ? 1.0L : 2.0L) * term.value;
+    if (is_canonical(key)) waves[key] = DoubleDouble(is_constant_angle(key) ? 1 : 2) * term.value;
   return waves;
 }
 
 BlockForm block_form(const HarmonicEnergy& energy, const Eigen::MatrixXd& B) {
   BlockForm form;
   form.B = B;
-  const LongMatrix B_inverse = B.cast<long double>().inverse();
+  const FineMatrix B_inverse = B.cast<DoubleDouble>().inverse();
   form.B_inverse = B_inverse.cast<double>();
   const auto sheets = transformed(sheets_of(energy), B_inverse);
   form.blocks = blocks_of(sheets, static_cast<int>(B.rows()));
@@ -153,12 +152,12 @@ BlockForm block_form(const HarmonicEnergy& energy, const Eigen::MatrixXd& B) {
     }
     for (std::size_t b = 0; b < form.blocks.size(); ++b) {
       // Re(w e^ix) A with one w where the real and the imaginary part are proportional.
-      const LongMatrix real = within(sheet.real, form.blocks[b]),
+      const FineMatrix real = within(sheet.real, form.blocks[b]),
                        imaginary = within(sheet.imaginary, form.blocks[b]);
-      const long double rr = real.squaredNorm(), ii = imaginary.squaredNorm(),
-                        ri = real.cwiseProduct(imaginary).sum();
-      if (ri * ri >= rr * ii * (1 - 1e-24L) && rr > 0 && ii > 0) {
-        const long double ratio = ri / rr;
+      const DoubleDouble rr = real.squaredNorm(), ii = imaginary.squaredNorm(),
+                         ri = real.cwiseProduct(imaginary).sum();
+      if (ri * ri >= rr * ii * (1 - 1e-24) && rr > 0 && ii > 0) {
+        const DoubleDouble ratio = ri / rr;
         add_to_group(form, b, key, real, Complex(1, ratio));
       } else {
         add_to_group(form, b, key, real, Complex(1, 0));
@@ -173,8 +172,8 @@ namespace {
 
 // The row with its largest element scaled to one.
 Row scaled(const Row& row) {
-  const auto largest = std::max_element(
-      row.begin(), row.end(), [](long double x, long double y) { return std::abs(x) < std::abs(y); });
+  const auto largest = std::max_element(row.begin(), row.end(),
+                                        [](DoubleDouble x, DoubleDouble y) { return abs(x) < abs(y); });
   Row result = row;
   for (auto& x : result) x /= *largest;
   return result;
@@ -183,13 +182,13 @@ Row scaled(const Row& row) {
 std::vector<Row> candidate_rows(const HarmonicEnergy& energy) {
   std::vector<Row> rows;
   const auto add = [&](const Row& row) {
-    if (std::all_of(row.begin(), row.end(), [](long double x) { return std::abs(x) < 1e-15L; })) return;
+    if (std::all_of(row.begin(), row.end(), [](DoubleDouble x) { return abs(x) < 1e-15; })) return;
     Row now = scaled(row);
     for (auto& x : now)
-      if (std::abs(x) < 1e-15L) x = 0;
+      if (abs(x) < 1e-15) x = 0;
     for (const Row& known : rows)
       if (std::equal(known.begin(), known.end(), now.begin(),
-                     [](long double x, long double y) { return std::abs(x - y) < 1e-14L; }))
+                     [](DoubleDouble x, DoubleDouble y) { return abs(x - y) < 1e-14; }))
         return;
     if (rows.size() < 12) rows.push_back(now);
   };
@@ -203,7 +202,7 @@ std::vector<Row> candidate_rows(const HarmonicEnergy& energy) {
 }
 
 // What an evaluation in this basis is bound to take: elements of N, solving its blocks, the basis itself.
-double burden(const std::map<HarmonicKey, Sheet>& sheets, const LongMatrix& B) {
+double burden(const std::map<HarmonicKey, Sheet>& sheets, const FineMatrix& B) {
   double cost = 0;
   for (const auto& [key, sheet] : sheets)
     for (Eigen::Index i = 0; i < B.rows(); ++i)
@@ -211,7 +210,7 @@ double burden(const std::map<HarmonicKey, Sheet>& sheets, const LongMatrix& B) {
   for (const auto& block : blocks_of(sheets, static_cast<int>(B.rows())))
     cost += std::pow(static_cast<double>(block.size()), 3) / 2;
   for (Eigen::Index i = 0; i < B.size(); ++i)
-    cost += (B.data()[i] != 0) + (std::abs(std::abs(B.data()[i]) - 1) > 1e-14L && B.data()[i] != 0);
+    cost += (B.data()[i] != 0) + (abs(abs(B.data()[i]) - 1) > 1e-14 && B.data()[i] != 0);
   return cost;
 }
 
@@ -225,17 +224,17 @@ std::vector<Eigen::MatrixXd> candidate_bases(const HarmonicEnergy& energy, std::
   std::vector<bool> chosen(rows.size(), false);
   std::fill(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(n), true);
   do {
-    LongMatrix B(n, n);
+    FineMatrix B(n, n);
     Eigen::Index i = 0;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (!chosen[r]) continue;
       for (std::size_t k = 0; k < n; ++k) B(i, static_cast<Eigen::Index>(k)) = rows[r][k];
       ++i;
     }
-    if (std::abs(B.determinant()) < 1e-6L) continue;
-    const LongMatrix inverse = B.inverse();
+    if (abs(B.determinant()) < 1e-6) continue;
+    const FineMatrix inverse = B.inverse();
     // A basis of nearly dependent rates would cost digits.
-    if (B.norm() * inverse.norm() > 4 * static_cast<long double>(n)) continue;
+    if (B.norm() * inverse.norm() > 4 * DoubleDouble(n)) continue;
     found.emplace_back(burden(transformed(sheets, inverse), B), B.cast<double>());
   } while (std::prev_permutation(chosen.begin(), chosen.end()));
   std::stable_sort(found.begin(), found.end(),

@@ -11,7 +11,7 @@
 namespace mixloop {
 
 /// A real function sum Re(w exp(i key . theta)) x^powers, its keys one of each pair of opposites.
-using WaveSum = std::map<HarmonicKey, std::complex<long double>>;
+using WaveSum = std::map<HarmonicKey, std::complex<DoubleDouble>>;
 
 /// A part f(theta) A of the mass matrix within one block, A constant.
 struct WaveGroup {

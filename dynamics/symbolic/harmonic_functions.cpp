@@ -46,11 +46,12 @@ HarmonicFunctions::HarmonicFunctions(std::shared_ptr<const HarmonicScene> found,
 
 // Rate of a whole combination of base angles in the basis.
 Eigen::RowVectorXd HarmonicFunctions::rate_of(const EvaluationAngles::Angle& angle) const {
-  Eigen::Matrix<long double, 1, Eigen::Dynamic> row = Eigen::Matrix<long double, 1, Eigen::Dynamic>::Zero(n_);
+  Eigen::Matrix<DoubleDouble, 1, Eigen::Dynamic> row =
+      Eigen::Matrix<DoubleDouble, 1, Eigen::Dynamic>::Zero(n_);
   for (std::size_t g = 0; g < found_->energy.space.angles.size(); ++g)
     for (int k = 0; k < n_; ++k)
       row[k] += angle[g] * found_->energy.space.angles[g][static_cast<std::size_t>(k)];
-  Eigen::RowVectorXd rate = (row * form_.B_inverse.cast<long double>()).cast<double>();
+  Eigen::RowVectorXd rate = (row * form_.B_inverse.cast<DoubleDouble>()).cast<double>();
   for (Eigen::Index i = 0; i < rate.size(); ++i)
     if (std::fabs(rate[i]) < 1e-14 * rate.cwiseAbs().maxCoeff()) rate[i] = 0.0;
   return rate;
@@ -66,16 +67,16 @@ Expression HarmonicFunctions::factor_of(const HarmonicKey& key) const {
 // e^ix of one harmonic as monomials in cosines and sines; w takes over the phases.
 HarmonicFunctions::Expanded HarmonicFunctions::expanded(const EvaluationAngles::Angle& angle,
                                                         Complex& w) const {
-  Expanded result{{Polynomial::Exponents(variables_.size(), 0), 1.0L}};
+  Expanded result{{Polynomial::Exponents(variables_.size(), 0), Complex(1)}};
   if (angle == EvaluationAngles::Angle{}) return result;
   const std::vector<int>& multiple = angles_.combinations.at(angle);
-  long double phase = 0;
+  DoubleDouble phase = 0;
   for (std::size_t e = 0; e < angles_.angles.size(); ++e) {
     phase += multiple[e] * angles_.phases[e][writing_.phase[e]];
     for (int k = 0; k < std::abs(multiple[e]); ++k) result = turned(result, e, multiple[e] > 0 ? 1 : -1);
   }
-  const long double size = std::abs(w);
-  w *= std::polar(1.0L, -phase);
+  const DoubleDouble size = std::abs(w);
+  w *= std::polar(DoubleDouble(1), -phase);
   if (is_round_off(w.real(), size)) w.real(0);
   if (is_round_off(w.imag(), size)) w.imag(0);
   return result;
@@ -184,7 +185,7 @@ std::vector<HarmonicSlope> HarmonicFunctions::slopes(const Polynomial& polynomia
 // Of a single harmonic's function: by its own angle, d Re(w e^ix) / dx = Re(i w e^ix).
 std::vector<HarmonicSlope> HarmonicFunctions::slope_of_harmonic(const WaveSum& waves) const {
   WaveSum turned_on;
-  for (const auto& [key, w] : waves) turned_on[key] = w * std::complex<long double>(0, 1);
+  for (const auto& [key, w] : waves) turned_on[key] = w * std::complex<DoubleDouble>(0, 1);
   return {{horner(polynomial_of(turned_on), variables_), rate_of(waves.begin()->first.angle)}};
 }
 

@@ -35,7 +35,7 @@ class HarmonicFunctions {
   Expression factor_of(const HarmonicKey& key) const;
 
  private:
-  using Complex = std::complex<long double>;
+  using Complex = std::complex<DoubleDouble>;
   using Expanded = std::map<Polynomial::Exponents, Complex>;
 
   Eigen::RowVectorXd rate_of(const EvaluationAngles::Angle& angle) const;

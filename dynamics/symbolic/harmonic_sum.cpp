@@ -17,15 +17,15 @@ HarmonicKey HarmonicKey::operator+(const HarmonicKey& other) const {
   return sum;
 }
 
-HarmonicSum::HarmonicSum(long double value) {
-  if (value != 0) terms_[{}] = {value, std::abs(value)};
+HarmonicSum::HarmonicSum(DoubleDouble value) {
+  if (value != 0) terms_[{}] = {value, abs(value)};
 }
 
 HarmonicSum HarmonicSum::power(int variable) {
   HarmonicSum sum;
   HarmonicKey key;
   key.power[static_cast<std::size_t>(variable)] = 1;
-  sum.terms_[key] = {1, 1};
+  sum.terms_[key] = {Complex(1), 1};
   return sum;
 }
 
@@ -41,28 +41,28 @@ HarmonicKey key_of(const std::array<std::int16_t, kMostBaseAngles>& angle, int s
 }  // namespace
 
 // cos x = (e^ix + e^-ix) / 2
-HarmonicSum HarmonicSum::cosine(const std::array<std::int16_t, kMostBaseAngles>& angle, long double phase) {
-  const Complex turn = std::polar(0.5L, phase);
+HarmonicSum HarmonicSum::cosine(const std::array<std::int16_t, kMostBaseAngles>& angle, DoubleDouble phase) {
+  const Complex turn = std::polar(DoubleDouble(0.5), phase);
   HarmonicSum sum;
   for (auto [key, value] : {std::pair{key_of(angle, 1), turn}, {key_of(angle, -1), std::conj(turn)}}) {
     sum.terms_[key].value += value;
-    sum.terms_[key].scale += 0.5L;
+    sum.terms_[key].scale += 0.5;
   }
   return sum;
 }
 
-HarmonicSum HarmonicSum::sine(const std::array<std::int16_t, kMostBaseAngles>& angle, long double phase) {
+HarmonicSum HarmonicSum::sine(const std::array<std::int16_t, kMostBaseAngles>& angle, DoubleDouble phase) {
   // sin x = (e^ix - e^-ix) / 2i
-  const Complex turn = std::polar(0.5L, phase) * Complex(0, -1);
+  const Complex turn = std::polar(DoubleDouble(0.5), phase) * Complex(0, -1);
   HarmonicSum sum;
   for (auto [key, value] : {std::pair{key_of(angle, 1), turn}, {key_of(angle, -1), std::conj(turn)}}) {
     sum.terms_[key].value += value;
-    sum.terms_[key].scale += 0.5L;
+    sum.terms_[key].scale += 0.5;
   }
   return sum;
 }
 
-HarmonicSum& HarmonicSum::add(const HarmonicSum& other, long double factor) {
+HarmonicSum& HarmonicSum::add(const HarmonicSum& other, DoubleDouble factor) {
   for (const auto& [key, term] : other.terms_) {
     Term& mine = terms_[key];
     mine.value += factor * term.value;
@@ -71,10 +71,10 @@ HarmonicSum& HarmonicSum::add(const HarmonicSum& other, long double factor) {
   return *this;
 }
 
-HarmonicSum& HarmonicSum::operator*=(long double factor) {
+HarmonicSum& HarmonicSum::operator*=(DoubleDouble factor) {
   for (auto& [key, term] : terms_) {
     term.value *= factor;
-    term.scale *= std::abs(factor);
+    term.scale *= abs(factor);
   }
   return *this;
 }
@@ -102,19 +102,19 @@ HarmonicSum HarmonicSum::derivative(const HarmonicSpace& space, int k) const {
   HarmonicSum result;
   const auto at = static_cast<std::size_t>(k);
   for (const auto& [key, term] : terms_) {
-    long double rate = 0;
+    DoubleDouble rate = 0;
     for (std::size_t g = 0; g < space.angles.size(); ++g) rate += key.angle[g] * space.angles[g][at];
     if (rate != 0) {
       Term& mine = result.terms_[key];
       mine.value += term.value * Complex(0, rate);
-      mine.scale += term.scale * std::abs(rate);
+      mine.scale += term.scale * abs(rate);
     }
     if (key.power[at] > 0) {
       HarmonicKey lower = key;
       --lower.power[at];
       Term& mine = result.terms_[lower];
-      mine.value += term.value * static_cast<long double>(key.power[at]);
-      mine.scale += term.scale * static_cast<long double>(key.power[at]);
+      mine.value += term.value * DoubleDouble(key.power[at]);
+      mine.scale += term.scale * DoubleDouble(key.power[at]);
     }
   }
   return result;

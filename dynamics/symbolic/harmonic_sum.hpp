@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "dynamics/symbolic/double_double.hpp"
+
 namespace mixloop {
 
 constexpr int kMostBaseAngles = 10;  ///< base angles of a harmonic space
@@ -23,8 +25,8 @@ struct HarmonicKey {
 
 /// The base angles and the powers' variables that harmonic sums of one scene are made of.
 struct HarmonicSpace {
-  int n = 0;                                     ///< independent coordinates; powers 0 to n-1 are theirs
-  std::vector<std::vector<long double>> angles;  ///< d theta_g / d psi_k
+  int n = 0;                                      ///< independent coordinates; powers 0 to n-1 are theirs
+  std::vector<std::vector<DoubleDouble>> angles;  ///< d theta_g / d psi_k
 };
 
 /// A trigonometric polynomial in a few base angles, and a polynomial in displacements and parameters: a
@@ -33,18 +35,18 @@ struct HarmonicSpace {
 /// cancels isn't there.
 class HarmonicSum {
  public:
-  using Complex = std::complex<long double>;
+  using Complex = std::complex<DoubleDouble>;
   struct Term {
     Complex value;
-    long double scale = 0;  ///< what went into it: a value far below it is round-off
+    DoubleDouble scale = 0;  ///< what went into it: a value far below it is round-off
   };
 
   HarmonicSum() = default;
-  explicit HarmonicSum(long double value);
+  explicit HarmonicSum(DoubleDouble value);
   static HarmonicSum power(int variable);
   /// cos(angle . theta + phase), sin(angle . theta + phase).
-  static HarmonicSum cosine(const std::array<std::int16_t, kMostBaseAngles>& angle, long double phase);
-  static HarmonicSum sine(const std::array<std::int16_t, kMostBaseAngles>& angle, long double phase);
+  static HarmonicSum cosine(const std::array<std::int16_t, kMostBaseAngles>& angle, DoubleDouble phase);
+  static HarmonicSum sine(const std::array<std::int16_t, kMostBaseAngles>& angle, DoubleDouble phase);
 
   bool is_zero() const { return terms_.empty(); }
   std::size_t size() const { return terms_.size(); }
@@ -52,7 +54,7 @@ class HarmonicSum {
 
   HarmonicSum& operator+=(const HarmonicSum& other) { return add(other, 1); }
   HarmonicSum& operator-=(const HarmonicSum& other) { return add(other, -1); }
-  HarmonicSum& operator*=(long double factor);
+  HarmonicSum& operator*=(DoubleDouble factor);
   /// this += a * b
   void add_product(const HarmonicSum& a, const HarmonicSum& b);
   /// Drops what is round-off of terms that cancelled.
@@ -61,14 +63,14 @@ class HarmonicSum {
   HarmonicSum derivative(const HarmonicSpace& space, int k) const;
 
  private:
-  HarmonicSum& add(const HarmonicSum& other, long double factor);
+  HarmonicSum& add(const HarmonicSum& other, DoubleDouble factor);
 
   std::map<HarmonicKey, Term> terms_;
 };
 
 /// Whether a part of a coefficient is but round-off beside the scale of what went into it.
-inline bool is_round_off(long double part, long double scale) {
-  return (part < 0 ? -part : part) <= 3e-15L * scale;
+inline bool is_round_off(DoubleDouble part, DoubleDouble scale) {
+  return (part < 0 ? -part : part) <= 3e-15 * scale;
 }
 
 }  // namespace mixloop

@@ -10,6 +10,7 @@ std::string OperationCount::text() const {
   };
   say(add, "add"), say(mul, "mul"), say(div, "div"), say(sqrt, "sqrt"), say(other, "exp/log/atan2"),
       say(sincos, "sincos");
+  if (fused > 0) result += ", " + std::to_string(fused) + " fused";
   return result.empty() ? "nothing" : result;
 }
 

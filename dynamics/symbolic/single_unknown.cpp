@@ -83,13 +83,16 @@ class Single {
       if (depends(part, angle) || depends(part, c) || depends(part, s)) return std::nullopt;
     places.forget();
     Planar direction;
-    const double side = home_.of(B) * std::cos(alpha) - home_.of(A) * std::sin(alpha);
+    const double side =
+        home_.of(B) * mixloop_functions::cos(alpha) - home_.of(A) * mixloop_functions::sin(alpha);
     if (is_zero(A)) {
       direction.y = -(C / B);
-      direction.x = sqrt((E(1.0) - direction.y) * (E(1.0) + direction.y)) * sign(std::cos(alpha));
+      direction.x =
+          sqrt((E(1.0) - direction.y) * (E(1.0) + direction.y)) * sign(mixloop_functions::cos(alpha));
     } else if (is_zero(B)) {
       direction.x = -(C / A);
-      direction.y = sqrt((E(1.0) - direction.x) * (E(1.0) + direction.x)) * sign(std::sin(alpha));
+      direction.y =
+          sqrt((E(1.0) - direction.x) * (E(1.0) + direction.x)) * sign(mixloop_functions::sin(alpha));
     } else {
       const E R = A * A + B * B, inverse = E(1.0) / R, root = sqrt(R - C * C) * sign(side);
       direction = {(B * root - A * C) * inverse, -((A * root + B * C) * inverse)};

@@ -60,7 +60,7 @@ TEST(Golden, TheExperimentsOverTheBusHaveTheirBytes) {
 
 std::string counts(const nlohmann::json& operations) {
   std::string text;
-  for (const char* kind : {"add", "mul", "div", "sqrt", "sincos", "other"})
+  for (const char* kind : {"add", "mul", "div", "sqrt", "sincos", "other", "fused"})
     text += std::to_string(operations.at(kind).get<int>()) + " " + kind + " ";
   return text;
 }

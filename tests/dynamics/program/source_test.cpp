@@ -47,7 +47,7 @@ TEST(Source, BuildsWithoutAWarningAsCxx17) {
 // Long programs are written in parts.
 TEST(Source, ALongProgramBuildsWithoutAWarning) {
   const auto chain =
-      std::make_shared<const Scene>(load_scene(parse_document(oracle::serial_chain(6), "chain")));
+      std::make_shared<const Scene>(load_scene(parse_document(oracle::serial_chain(8), "chain")));
   const std::string source = firmware_source(chain, {Purpose::forward_dynamics}, Trigonometry::inlined);
   ASSERT_NE(source.find("_part_1"), std::string::npos);
   EXPECT_TRUE(builds(source, "g++", "-std=c++17 -O1"));

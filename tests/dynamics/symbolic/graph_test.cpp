@@ -59,7 +59,7 @@ TEST_F(GraphTest, LongSumsAreTakenTogetherSideBySide) {
   const auto depth = [](const Program& p, NodeId output) {
     std::vector<int> known(p.nodes.size(), 0);
     for (NodeId id = 0; id < p.nodes.size(); ++id)
-      if (is_binary(p.nodes[id].op)) known[id] = 1 + std::max(known[p.nodes[id].a], known[p.nodes[id].b]);
+      for (NodeId x : Operands(p.nodes[id])) known[id] = std::max(known[id], 1 + known[x]);
     return known[output];
   };
   EXPECT_EQ(depth(chained, chained.outputs[0]), 8);

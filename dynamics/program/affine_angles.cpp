@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/program/affine_angles.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "dynamics/symbolic/double_double.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr std::size_t kMostTerms = 4;
+constexpr int kDeepest = 32;
+
+struct Sum {
+  DoubleDouble constant;
+  std::map<NodeId, DoubleDouble> terms;
+
+  void add(const Sum& other, const DoubleDouble& factor) {
+    constant += factor * other.constant;
+    for (const auto& [index, x] : other.terms) terms[index] += factor * x;
+  }
+};
+
+std::optional<Sum> sum_at(const Program& program, NodeId id, int deep = 0) {
+  const ExpressionNode& n = program.nodes[id];
+  if (n.op == Op::constant) return Sum{n.value, {}};
+  if (n.op == Op::input && static_cast<Block>(n.a) == Block::psi) return Sum{0, {{n.b, 1}}};
+  if (deep == kDeepest || (n.op != Op::neg && n.op != Op::add && n.op != Op::sub && n.op != Op::mul))
+    return std::nullopt;
+  auto a = sum_at(program, n.a, deep + 1);
+  auto b = n.op == Op::neg ? Sum{} : sum_at(program, n.b, deep + 1);
+  if (!a || !b || a->terms.size() + b->terms.size() > 2 * kMostTerms) return std::nullopt;
+  Sum sum;
+  if (n.op == Op::mul) {
+    if (!a->terms.empty()) std::swap(a, b);
+    if (!a->terms.empty()) return std::nullopt;
+    sum.add(*b, a->constant);
+  } else {
+    sum.add(*a, n.op == Op::neg ? -1 : 1);
+    sum.add(*b, n.op == Op::sub ? -1 : 1);
+  }
+  return sum;
+}
+
+bool is_plain(const AffineAngle& angle) {
+  return angle.constant == 0 && angle.terms.size() == 1 && angle.terms[0].second == 1;
+}
+
+}  // namespace
+
+std::optional<AffineAngle> affine_angle(const Program& program, NodeId angle) {
+  const auto sum = sum_at(program, angle);
+  if (!sum) return std::nullopt;
+  AffineAngle result{static_cast<double>(sum->constant), {}};
+  for (const auto& [index, factor] : sum->terms)
+    if (factor != 0) result.terms.emplace_back(index, static_cast<double>(factor));
+  if (result.terms.empty() || result.terms.size() > kMostTerms || is_plain(result)) return std::nullopt;
+  return result;
+}
+
+std::optional<AffineAngle> written_angle(const Program& program, NodeId angle) {
+  AffineAngle result;
+  const ExpressionNode* n = &program.nodes[angle];
+  for (; n->op == Op::fma; n = &program.nodes[n->c]) {
+    const ExpressionNode *psi = &program.nodes[n->a], *factor = &program.nodes[n->b];
+    if (psi->op != Op::input) std::swap(psi, factor);
+    if (psi->op != Op::input || static_cast<Block>(psi->a) != Block::psi || factor->op != Op::constant)
+      return std::nullopt;
+    result.terms.emplace_back(psi->b, factor->value);
+  }
+  if (n->op != Op::constant || result.terms.empty() || result.terms.size() > kMostTerms) return std::nullopt;
+  result.constant = n->value;
+  std::reverse(result.terms.begin(), result.terms.end());
+  return std::is_sorted(result.terms.begin(), result.terms.end()) ? std::optional(result) : std::nullopt;
+}
+
+}  // namespace mixloop
