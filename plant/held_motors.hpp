@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/equations.hpp"
+#include "dynamics/procedure/matrix.hpp"
 
 namespace mixloop {
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr Range kNotNegative{0, kNoLimit, "0 or more"};
 constexpr double kLongestDelay = 1;  // s
-constexpr std::int64_t kMostDelayTicks = 10000;
+constexpr std::int64_t kMostTicksOld = 10000;
 
 std::vector<std::int64_t> whole_ticks(const NodePtr& node, const Scene& scene, double rate_hz) {
   std::vector<std::int64_t> ticks;
@@ -31,10 +31,10 @@ std::vector<std::int64_t> whole_ticks(const NodePtr& node, const Scene& scene, d
       throw InputError("out_of_range", node->place,
                        fmt::format("the sensors' delay is {:g} ticks; expected whole ticks of {:g} s",
                                    exactly, 1 / rate_hz));
-    if (ticks.back() > kMostDelayTicks)
+    if (ticks.back() > kMostTicksOld)
       throw InputError(
           "out_of_range", node->place,
-          fmt::format("the sensors' delay is {} ticks; expected up to {}", ticks.back(), kMostDelayTicks));
+          fmt::format("the sensors' delay is {} ticks; expected up to {}", ticks.back(), kMostTicksOld));
   }
   return ticks;
 }

@@ -231,7 +231,7 @@ std::vector<int> measured(const nlohmann::ordered_json& inputs, const Scene& sce
   for (int i = 0; i < scene.n(); ++i) {
     const auto& coordinate = scene.independent[static_cast<std::size_t>(i)];
     const auto is_named = [&] {
-      return free->is_array() ? std::ranges::find(*free, coordinate.name) != free->end()
+      return free->is_array() ? std::find(free->begin(), free->end(), coordinate.name) != free->end()
                               : *free == coordinate.name;
     };
     if (coordinate.driven || !free || is_named()) all.push_back(i);
