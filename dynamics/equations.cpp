@@ -37,7 +37,8 @@ Equations::Equations(std::shared_ptr<const Scene> scene, Evaluation how, std::sp
   if (scene_->is_closed()) closures_ = of_closures(how);
   if (evaluation_ != Evaluation::reference && !has_fma())
     complaint_ += std::string(complaint_.empty() ? "" : "; ") +
-                  "this processor has no fused multiply-add: programs have the same bits, but take several times as long";
+                  "this processor has no fused multiply-add: programs have the same bits, but take several "
+                  "times as long";
 }
 
 std::unique_ptr<const Routine> Equations::routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,

@@ -41,14 +41,15 @@ TEST(Regulator, OfTheCartPoleComesToThePublishedOneAsTicksGetShort) {
 }
 
 TEST(Regulator, MakesTheLoopStableThatItIsFor) {
-  const Held held({{0, 0, 1, 0}, {0, 0, 0, 1}, {0, 9, 0, 0}, {1, 20, 0, 0}}, {{0}, {0}, {1}, {2}}, 0.01);
+  const Held held(Matrix{{0, 0, 1, 0}, {0, 0, 0, 1}, {0, 9, 0, 0}, {1, 20, 0, 0}}, Matrix{{0}, {0}, {1}, {2}},
+                  0.01);
   const auto gain = regulator_gain(held, Vector{{1, 1, 0, 0}}, Vector{{0.1}});
   ASSERT_TRUE(gain);
   EXPECT_LT(eigenvalues(held.Phi - held.Gamma * *gain).cwiseAbs().maxCoeff(), 1);
 }
 
 TEST(Regulator, IsNoneWhereTheTorqueDoesNotReachWhatGrows) {
-  const Held held({{0, 1}, {1, 0}}, {{0}, {0}}, 0.1);
+  const Held held(Matrix{{0, 1}, {1, 0}}, Matrix{{0}, {0}}, 0.1);
   EXPECT_FALSE(regulator_gain(held, Vector{{1, 1}}, Vector{{1}}));
 }
 
