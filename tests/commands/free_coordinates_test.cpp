@@ -155,7 +155,8 @@ TEST(LinearPlantByCommand, HasAGainThatHoldsIt) {
   EXPECT_TRUE(linear["warnings"].empty());
   EXPECT_NEAR(linear["gain"][0][0], -70.7107, 4);
   const auto held =
-      told_by({"simulate", experiment("cart_pole"), "--set", "controller.gain=" + linear["gain"].dump()});
+      told_by({"simulate", experiment("cart_pole"), "--set", "controller.gain=" + linear["gain"].dump(),
+               "--set", "expect={final: [0 m, 0 rad], tolerance: [1e-5 m, 1e-4 rad]}"});
   EXPECT_EQ(held["verdict"], "held");
 }
 
