@@ -8,6 +8,7 @@
 
 #include "loop/review.hpp"
 #include "loop/simulate.hpp"
+#include "loop/truth.hpp"
 
 namespace mixloop {
 namespace {
@@ -130,6 +131,27 @@ INSTANTIATE_TEST_SUITE_P(Shipped, HeldUpright,
                          testing::Values(std::pair("cart_pole", &cart_pole),
                                          std::pair("furuta_pendulum", &furuta)),
                          [](const auto& info) { return std::string(info.param.first); });
+
+// (I + m l^2) phi'' = m g l sin: the pole alone moves, and TRUTH says so.
+TEST(LockedCart, IsToldWithThePolesOwnAcceleration) {
+  Experiment experiment =
+      load_experiment(std::filesystem::path(MIXLOOP_SOURCE "/experiments/cart_pole.yaml"),
+                      {{"real_time", "{safe_state: brake}"}, {"duration", "0.2 s"}, {"expect", "{}"}});
+  experiment.evaluation = Evaluation::interpreter;
+  const Plan plan = make_plan(experiment);
+  RecordedPlant run(experiment, plan);
+  ASSERT_TRUE(run.begin());
+  run.make_safe("a test");
+  for (int k = 0; k < 200; ++k) ASSERT_TRUE(run.real_time_tick({}, [](std::int64_t) { return true; }));
+  TruthReader reader(experiment, run.recorder());
+  for (std::int64_t k = 0; k < 200; ++k) {
+    const Truth& truth = reader.at(k);
+    EXPECT_EQ(truth.psidd[0], 0);
+    EXPECT_NEAR(truth.psidd[1], 0.2 * 9.8 * 0.3 * std::sin(run.recorder().psi(k)[1]) / 0.024, 1e-12);
+  }
+  EXPECT_EQ(run.plant().psi()[0], 0);
+  EXPECT_GT(run.plant().psi()[1], 0.25) << "it falls";
+}
 
 }  // namespace
 }  // namespace mixloop
