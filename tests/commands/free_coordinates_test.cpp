@@ -100,7 +100,7 @@ TEST_P(HeldUprightByCommands, IsMonitored) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, HeldUprightByCommands, testing::Values("cart_pole", "furuta_pendulum"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tested) { return std::string(tested.param); });
 
 /// The cart alone is held; nobody looks at the pole.
 const std::vector<std::string> kUnmeasured = {"--set", "controller.gain=[[50, 0, 20, 0]]",

@@ -130,7 +130,7 @@ TEST_P(HeldUpright, IsStableAndWarnsOfNothing) {
 INSTANTIATE_TEST_SUITE_P(Shipped, HeldUpright,
                          testing::Values(std::pair("cart_pole", &cart_pole),
                                          std::pair("furuta_pendulum", &furuta)),
-                         [](const auto& info) { return std::string(info.param.first); });
+                         [](const auto& tested) { return std::string(tested.param.first); });
 
 // (I + m l^2) phi'' = m g l sin: the pole alone moves, and TRUTH says so.
 TEST(LockedCart, IsToldWithThePolesOwnAcceleration) {
