@@ -10,7 +10,8 @@
 namespace mixloop::bench {
 
 using Triple = std::array<double, 3>;
-using Symmetric = std::array<double, 6>;  ///< 11, 12, 13, 22, 23, 33
+using Symmetric = std::array<double, 6>;   ///< 11, 12, 13, 22, 23, 33
+using MassMatrix = std::array<double, 9>;  ///< begins with a Symmetric, or is all of it
 
 struct State {
   Triple psi{}, psid{}, tau{};
@@ -25,7 +26,8 @@ struct Engine {
   std::string name;
   double tolerance = 1e-12;  ///< relative error against the oracle that it must keep
   std::function<void(const State&, Triple& psidd)> forward;
-  std::function<void(const State&, Symmetric& M)> mass;
+  std::function<void(const State&, MassMatrix& M)> mass;
+  bool whole_matrix = false;  ///< it writes all of M, which no caller has to bring into another layout
   std::function<void(const State&, Triple& force)> mass_times;  ///< M a, with a = state.tau
   std::function<void(const State&, Triple& psidd, Triple& force)> forward_and_mass_times;
   std::function<void(const std::vector<State>&, std::vector<Triple>& psidd)> forward_all;

@@ -40,7 +40,7 @@ Engine engine(std::string name, Numbers n, Angles angles) {
   made.forward = [=](const State& state, Triple& psidd) {
     forward_dynamics<double>(n, angles(state.psi.data()), state.psid.data(), state.tau.data(), psidd.data());
   };
-  made.mass = [=](const State& state, Symmetric& M) {
+  made.mass = [=](const State& state, MassMatrix& M) {
     mass_matrix<double>(n, angles(state.psi.data()), M.data());
   };
   made.mass_times = [=](const State& state, Triple& force) {
@@ -69,7 +69,7 @@ Engine vectors_inside() {
   engine.forward = [](const State& state, Triple& psidd) {
     paired_forward_dynamics(kFolded, state.psi.data(), state.psid.data(), state.tau.data(), psidd.data());
   };
-  engine.mass = [](const State& state, Symmetric& M) {
+  engine.mass = [](const State& state, MassMatrix& M) {
     paired_mass_matrix(kFolded, state.psi.data(), M.data());
   };
   return engine;

@@ -58,8 +58,6 @@ std::shared_ptr<Emitted> emitted(const ScenePtr& scene, Purpose purpose, Trigono
   return made;
 }
 
-Symmetric upper_of(const double* M) { return {M[0], M[3], M[6], M[4], M[7], M[8]}; }
-
 Engine emitted_engine(std::string name, const ScenePtr& scene, Trigonometry trigonometry) {
   Engine engine;
   engine.name = std::move(name);
@@ -72,10 +70,9 @@ Engine emitted_engine(std::string name, const ScenePtr& scene, Trigonometry trig
   engine.forward = [forward = run(Purpose::forward_dynamics)](const State& state, Triple& psidd) {
     forward(state.psi.data(), state.psid.data(), state.tau.data(), psidd.data());
   };
-  engine.mass = [mass = run(Purpose::mass_matrix)](const State& state, Symmetric& upper) {
-    double M[9];
-    mass(state.psi.data(), nullptr, nullptr, M);
-    upper = upper_of(M);
+  engine.whole_matrix = true;
+  engine.mass = [mass = run(Purpose::mass_matrix)](const State& state, MassMatrix& M) {
+    mass(state.psi.data(), nullptr, nullptr, M.data());
   };
   engine.mass_times = [times = run(Purpose::mass_times)](const State& state, Triple& force) {
     times(state.psi.data(), nullptr, state.tau.data(), force.data());
@@ -102,10 +99,9 @@ Engine through_equations(const ScenePtr& scene, Evaluation how) {
   made.forward = [dynamics](const State& state, Triple& psidd) {
     dynamics->evaluate(Purpose::forward_dynamics, {state.psi, state.psid, state.tau}, psidd);
   };
-  made.mass = [dynamics](const State& state, Symmetric& upper) {
-    std::array<double, 9> M;
+  made.whole_matrix = true;
+  made.mass = [dynamics](const State& state, MassMatrix& M) {
     dynamics->evaluate(Purpose::mass_matrix, {.psi = state.psi}, M);
-    upper = upper_of(M.data());
   };
   made.mass_times = [dynamics](const State& state, Triple& force) {
     dynamics->evaluate(Purpose::mass_times, {.psi = state.psi, .input = state.tau}, force);

@@ -148,7 +148,7 @@ class MujocoRobot {
     Eigen::Map<Vector3d>(psidd.data()) = M.llt().solve(Vector3d(state.tau.data()) - C_.transpose() * h);
   }
 
-  void mass_matrix(const State& state, Symmetric& upper) {
+  void mass_matrix(const State& state, MassMatrix& upper) {
     place(state);
     const Matrix3d M = mass();
     upper = {M(0, 0), M(0, 1), M(0, 2), M(1, 1), M(1, 2), M(2, 2)};
@@ -184,7 +184,7 @@ void add_mujoco(Engines& engines) {
   open.name = version + ", open tree, projected by the user";
   open.tolerance = 1e-9;
   open.forward = [tree](const State& state, Triple& psidd) { tree->projected(state, psidd); };
-  open.mass = [tree](const State& state, Symmetric& M) { tree->mass_matrix(state, M); };
+  open.mass = [tree](const State& state, MassMatrix& M) { tree->mass_matrix(state, M); };
   engines.push_back(std::move(open));
   Engine own;
   own.name = version + ", couplings as its equality constraints";

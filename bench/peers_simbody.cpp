@@ -73,7 +73,7 @@ class SimbodyRobot {
     psidd = {result[0], result[1], result[2]};
   }
 
-  void mass_matrix(const bench::State& state, Symmetric& upper) {
+  void mass_matrix(const bench::State& state, MassMatrix& upper) {
     place(state);
     system_.realize(state_, Stage::Position);
     const Mat33 M = mass();
@@ -144,7 +144,7 @@ void add_simbody(Engines& engines) {
   open.name = "Simbody 3.7, open tree, projected by the user";
   open.tolerance = 1e-10;
   open.forward = [tree](const State& state, Triple& psidd) { tree->projected(state, psidd); };
-  open.mass = [tree](const State& state, Symmetric& M) { tree->mass_matrix(state, M); };
+  open.mass = [tree](const State& state, MassMatrix& M) { tree->mass_matrix(state, M); };
   engines.push_back(std::move(open));
   Engine own;
   own.name = "Simbody 3.7, three coordinate couplers";

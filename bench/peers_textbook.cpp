@@ -60,7 +60,7 @@ class TextbookRobot {
     Eigen::Map<Vector3d>(psidd.data()) = M.llt().solve(tau - C_.transpose() * h);
   }
 
-  void mass_matrix(const State& state, Symmetric& upper) const {
+  void mass_matrix(const State& state, MassMatrix& upper) const {
     Frames frames;
     place(C_ * Eigen::Map<const Vector3d>(state.psi.data()) + q0_, frames);
     const Matrix3d M = C_.transpose() * mass(frames) * C_;
@@ -165,7 +165,7 @@ void add_textbook(Engines& engines) {
   engine.name = "textbook route in Eigen (composite body, Newton-Euler, C)";
   const TextbookRobot robot;
   engine.forward = [robot](const State& state, Triple& psidd) { robot.forward(state, psidd); };
-  engine.mass = [robot](const State& state, Symmetric& M) { robot.mass_matrix(state, M); };
+  engine.mass = [robot](const State& state, MassMatrix& M) { robot.mass_matrix(state, M); };
   engines.push_back(std::move(engine));
 }
 

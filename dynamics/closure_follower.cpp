@@ -43,7 +43,8 @@ void ClosureFollower::stand(std::span<const double> psi, double t, std::span<con
   double* to = anchor_.data();
   for (std::size_t s = 0; s < sizes_.started; ++s) {
     *to++ = at[s];
-    if (scene_->turns(scene_->started[s])) *to++ = mixloop_functions::cos(at[s]), *to++ = mixloop_functions::sin(at[s]);
+    if (scene_->turns(scene_->started[s]))
+      *to++ = mixloop_functions::cos(at[s]), *to++ = mixloop_functions::sin(at[s]);
   }
   to = std::fill_n(to, sizes_.started * (sizes_.n + 1), 0.0);
   to = std::copy_n(psi.begin(), sizes_.n, to);

@@ -6,7 +6,6 @@
 
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/machine_code.hpp"
-#include "dynamics/program/processor.hpp"
 #include "dynamics/program/reference.hpp"
 #include "dynamics/program/trace.hpp"
 #include "dynamics/scene/canonical.hpp"
@@ -35,10 +34,6 @@ Equations::Equations(std::shared_ptr<const Scene> scene, Evaluation how, std::sp
     if (scaled && signature(purpose).has_forces) scaled_[at] = routine(scaled, purpose, how);
   }
   if (scene_->is_closed()) closures_ = of_closures(how);
-  if (evaluation_ != Evaluation::reference && !has_fma())
-    complaint_ += std::string(complaint_.empty() ? "" : "; ") +
-                  "this processor has no fused multiply-add: programs have the same bits, but take several "
-                  "times as long";
 }
 
 std::unique_ptr<const Routine> Equations::routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,

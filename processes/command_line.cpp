@@ -17,6 +17,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "dynamics/program/processor.hpp"
 #include "loop/cases.hpp"
 #include "loop/result.hpp"
 #include "notation/long_work.hpp"
@@ -134,7 +135,14 @@ int once_written(int status, const char* program) {
 }  // namespace
 
 void say_complaint(const std::string& complaint) {
-  static std::once_flag said;
+  static std::once_flag said, said_of_processor;
+  if (!has_fma())
+    std::call_once(said_of_processor, [] {
+      fmt::print(
+          stderr,
+          "mixloop: this processor has no fused multiply-add: programs have the same bits, but take several "
+          "times as long\n");
+    });
   if (complaint.empty()) return;
   std::call_once(
       said, [&] { fmt::print(stderr, "mixloop: programs are interpreted, not compiled: {}\n", complaint); });

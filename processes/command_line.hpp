@@ -44,7 +44,7 @@ void add_seconds_option(CLI::App& command, const std::string& name, double& seco
 void add_evaluation_option(CLI::App& command, Evaluation& evaluation);
 
 /// Says on stderr, once a process, why programs are interpreted that should have been compiled, if any is
-/// (Equations::complaint).
+/// (Equations::complaint), and where the processor makes them slow.
 void say_complaint(const std::string& complaint);
 
 /// One JSON object on stdout, and nothing else.

@@ -87,7 +87,10 @@ const std::vector<std::string>& machine_code_flags() {
                                                  "-fno-math-errno", "-fno-plt", "-fPIC", "-shared",
                                                  // GCC 12 fuses the sums and differences of products that it
                                                  // has put into one vector, in spite of contract=off.
-                                                 "-fno-tree-slp-vectorize"};
+                                                 "-fno-tree-slp-vectorize",
+                                                 // Before registers are given, too: 0.95 of the time
+                                                 // (bench/README.md).
+                                                 "-fschedule-insns"};
   return flags;
 }
 

@@ -165,9 +165,11 @@ class Turned {
   }
 
   int turned(const Formula::Node& node, double h) {
-    const int y_cos = times(node.left, mixloop_functions::cos(h)), x_sin = times(node.right, mixloop_functions::sin(h));
+    const int y_cos = times(node.left, mixloop_functions::cos(h)),
+              x_sin = times(node.right, mixloop_functions::sin(h));
     const int y = apply(Op::subtract, y_cos, x_sin);
-    const int x_cos = times(node.right, mixloop_functions::cos(h)), y_sin = times(node.left, mixloop_functions::sin(h));
+    const int x_cos = times(node.right, mixloop_functions::cos(h)),
+              y_sin = times(node.left, mixloop_functions::sin(h));
     const int x = apply(Op::add, x_cos, y_sin);
     const int angle = apply(Op::atan2, y, x);
     return apply(Op::add, angle, constant(h));

@@ -3,6 +3,7 @@
 // programs. A change of tests/golden is a change of what users get, and stands in CHANGELOG.md.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -56,6 +57,19 @@ TEST(Golden, TheExperimentsOverTheBusHaveTheirBytes) {
   Lines promised = golden("trajectories.txt", 1);
   promised.erase("paper_continuous");  // no bus is continuous
   EXPECT_EQ(trajectories(promised, {"run"}), promised);
+}
+
+// The first 64-bit x86 processors had no fused operations.
+TEST(Golden, AnOldProcessorHasTheBytesAndSaysThatItIsSlow) {
+  if (MIXLOOP_SANITIZED || std::system("qemu-x86_64 --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "nothing that stands in for an old processor (qemu-user)";
+  Command command({"/usr/bin/env", "qemu-x86_64", "-cpu", "Nehalem", bin("mixloop"), "simulate",
+                   experiment("four_bar_turns"), "--evaluation", "interpreter", "--json"});
+  ASSERT_EQ(command.wait(), 0) << command.err();
+  EXPECT_EQ(command.json().at("trajectory_sha256"), golden("trajectories.txt", 1).at("four_bar_turns"));
+  const std::string said = command.err();
+  EXPECT_NE(said.find("no fused multiply-add"), std::string::npos) << said;
+  EXPECT_EQ(said.find("no fused multiply-add"), said.rfind("no fused multiply-add")) << said;
 }
 
 std::string counts(const nlohmann::json& operations) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Emitted C++ on another processor and by another compiler: the bits of this one's machine code, and those that
-// are written down.
+// Emitted C++ on another processor and by another compiler: the bits of this one's machine code, and those
+// that are written down.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kTried{Purpose::forward_dynamics, Purpose::mass_times, Purpose::bias, Purpose::end_effector};
+constexpr std::array kTried{Purpose::forward_dynamics, Purpose::mass_times, Purpose::bias,
+                            Purpose::end_effector};
 
 std::string numbers(const std::vector<double>& values) {
   std::string text;
@@ -34,13 +35,14 @@ std::vector<double> start_of(const Scene& scene) {
   for (int j : scene.started) {
     const double home = scene.coordinates[static_cast<std::size_t>(j)].home;
     start.push_back(home);
-    if (scene.turns(j)) start.push_back(mixloop_functions::cos(home)), start.push_back(mixloop_functions::sin(home));
+    if (scene.turns(j))
+      start.push_back(mixloop_functions::cos(home)), start.push_back(mixloop_functions::sin(home));
   }
   return start;
 }
 
-/// A program that prints a hash of all bits that the scene's programs give at seeded states about home. Of what is
-/// no number only that.
+/// A program that prints a hash of all bits that the scene's programs give at seeded states about home. Of
+/// what is no number only that.
 std::string hashing_program(const std::shared_ptr<const Scene>& scene) {
   std::string text = firmware_source(scene, {kTried.begin(), kTried.end()}, Trigonometry::inlined);
   text += R"(
@@ -63,8 +65,8 @@ int main() {
 )";
   const int n = scene->n(), n_u = scene->n_u();
   const std::vector<double> start = start_of(*scene);
-  text += fmt::format("  const double home[] = {{{}}}, start[] = {{{}}}, parameters[] = {{{}}};\n", numbers(scene->home),
-                      numbers(start), numbers(scene->default_parameters()));
+  text += fmt::format("  const double home[] = {{{}}}, start[] = {{{}}}, parameters[] = {{{}}};\n",
+                      numbers(scene->home), numbers(start), numbers(scene->default_parameters()));
   for (Purpose purpose : kTried) {
     const int takes = signature(purpose).input_size(n, n_u);
     text += fmt::format(R"(
@@ -107,7 +109,8 @@ class Elsewhere : public ::testing::TestWithParam<std::string> {
     const std::string build = fmt::format("{} -std=c++17 -ffp-contract=off {} {} -o {}", compiler, flags,
                                           (directory_ / "hash.cpp").string(), program.string());
     if (std::system(build.c_str()) != 0) return "not built";
-    if (std::system(fmt::format("{} {} > {}", runner, program.string(), out.string()).c_str()) != 0) return "not run";
+    if (std::system(fmt::format("{} {} > {}", runner, program.string(), out.string()).c_str()) != 0)
+      return "not run";
     std::string hash;
     std::ifstream(out) >> hash;
     return hash;
