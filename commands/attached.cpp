@@ -23,6 +23,11 @@ RunFault no_plant_heard(const Bus& bus, const std::string& which) {
 Result attached(const Experiment& experiment, const BusOptions& options, nanoseconds first_wait,
                 nanoseconds patience, const StopSwitch& stop) {
   const Plan plan = make_plan(experiment);
+  if (!experiment.plant.sensors.unmeasured.empty())
+    throw InputError(
+        "not_measured", experiment.path.place,
+        "the plant's sensors leave free coordinates unmeasured (plant.sensors.free), so what is heard "
+        "of it doesn't say how it moves; expected --over-bus, or all of them measured");
   require_room(experiment, plan);
   Bus bus(options);
   SessionJudge judge(experiment, plan);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/numbers.hpp"
 #include "dynamics/equations.hpp"
 #include "dynamics/procedure/procedure.hpp"
 #include "dynamics/procedure/singular_mass.hpp"
-#include "dynamics/scene/coordinate_values.hpp"
 #include "loop/experiment.hpp"
 #include "notation/value.hpp"
 #include "processes/command_line.hpp"
@@ -22,13 +21,6 @@ struct DynamicsLine : CommonOptions {
   std::string t = "0";
 };
 
-/// `1,2,3` or `57 deg, 0, 10 cm`, one for each coordinate and in its unit; all zero when nothing was said.
-std::vector<double> values_of(const std::string& text, const char* option,
-                              std::span<const Scene::Independent> coordinates, const Quantity& quantity) {
-  if (text.empty()) return std::vector<double>(coordinates.size(), 0.0);
-  return read_values(parse_document("[" + text + "]", option), coordinates, quantity, option);
-}
-
 /// The closures hold on the straight line from home.
 void require_closed(Equations::Workspace& watched, std::span<const double> psi, double t) {
   if (watched.closures().accept(psi, t) != Status::ok)
@@ -37,22 +29,6 @@ void require_closed(Equations::Workspace& watched, std::span<const double> psi, 
         "on the straight line from home the closures are not solved up to this pose: it is out of "
         "the mechanism's reach, or beyond a singular pose, where more than one way goes on. "
         "Expected a pose on home's side, or another home");
-}
-
-template <class Derived>
-nlohmann::json rows(const Eigen::MatrixBase<Derived>& matrix) {
-  auto json = nlohmann::json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    auto row = nlohmann::json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
-    json.push_back(std::move(row));
-  }
-  return json;
-}
-
-template <class Derived>
-nlohmann::json list(const Eigen::MatrixBase<Derived>& vector) {
-  return std::vector<double>(vector.begin(), vector.end());
 }
 
 nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<const Scene>& scene) {
@@ -88,32 +64,18 @@ nlohmann::json evaluated(const DynamicsLine& options, const std::shared_ptr<cons
   json["q"] = list(ws.q);
   json["n_motors"] = scene->n_u();
   json["constraint_jacobian"] = rows(ws.C);
-  if (!scene->end_effector.named) return json;
-  const auto& hand = end_effector<double>(model, In(psi), In(psid), span_of(psidd), t, ws);
   if (scene->is_closed()) {
     const ClosureWatch watch = watched.closures().watch();
     json["closure_residual"] = watch.residual;
     json["closure_condition"] = std::vector<double>(watch.conditions.begin(), watch.conditions.end());
   }
+  if (!scene->end_effector.named) return json;
+  const auto& hand = end_effector<double>(model, In(psi), In(psid), span_of(psidd), t, ws);
   json["end_effector"] = {{"position", list(hand.position)},
                           {"velocity", list(hand.velocity)},
                           {"acceleration", list(hand.acceleration)},
                           {"jacobian", rows(hand.jacobian)}};
   return json;
-}
-
-void print_lines(const nlohmann::json& value, const std::string& name) {
-  const bool matrix = value.is_array() && !value.empty() && value[0].is_array();
-  if (value.is_object()) {
-    for (const auto& [key, inner] : value.items()) print_lines(inner, name.empty() ? key : name + "." + key);
-  } else if (value.is_number()) {
-    fmt::print("{}\n  {:.15g}\n", name, value.get<double>());
-  } else if (matrix) {
-    fmt::print("{}\n", name);
-    for (const auto& row : value) fmt::print("  {: .15e}\n", fmt::join(row.get<std::vector<double>>(), "  "));
-  } else {
-    fmt::print("{}\n  {: .15e}\n", name, fmt::join(value.get<std::vector<double>>(), "  "));
-  }
 }
 
 int run(const DynamicsLine& options) {
@@ -126,7 +88,7 @@ int run(const DynamicsLine& options) {
     print_json(json);
   } else {
     for (const auto& warning : scene->warnings) fmt::print(stderr, "warning: {}\n", warning);
-    print_lines(json, "");
+    print_lines(json);
   }
   return 0;
 }
@@ -140,10 +102,10 @@ void add_dynamics_command(CLI::App& app, int& status) {
   command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
   command
       ->add_option("--psi", options->psi,
-                   "motor positions, rad or m, e.g. 1,2,3 or '57 deg, 0, 10 cm'; zero when omitted, home "
-                   "where chains close")
+                   "positions of all independent coordinates, the motors' first, rad or m, e.g. 1,2,3 or "
+                   "'57 deg, 0, 10 cm'; zero when omitted, home where chains close")
       ->type_name("A,B,...");
-  command->add_option("--psid", options->psid, "motor velocities, rad/s or m/s")->type_name("A,B,...");
+  command->add_option("--psid", options->psid, "their velocities, rad/s or m/s")->type_name("A,B,...");
   command->add_option("--tau", options->tau, "motor torques or forces, N m or N")->type_name("A,B,...");
   command->add_option("--t", options->t, "time, s, for constraints and loads that depend on it")
       ->type_name("TIME");

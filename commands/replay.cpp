@@ -9,6 +9,7 @@
 #include <set>
 
 #include "commands/commands.hpp"
+#include "loop/measured.hpp"
 #include "loop/result.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/controller_side.hpp"
@@ -42,7 +43,7 @@ class Replay {
       : has_path_(plan.has_path()),
         controller_(make_guarded_controller(experiment)),
         side_(controller_side(controller_, experiment, plan)),
-        states_(experiment.scene->n()),
+        states_(static_cast<int>(measured_coordinates(experiment).size())),
         references_(experiment.scene->n_u()),
         commands_(experiment.scene->n_u()),
         again_(experiment.scene->n_u()),

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "commands/commands.hpp"
+#include "commands/linear.hpp"
 #include "loop/result.hpp"
 #include "loop/review.hpp"
 #include "notation/long_work.hpp"
@@ -27,6 +28,7 @@ struct StabilityLine : CommonOptions {
   std::vector<std::string> vary;
   int poses = 21;
   bool no_confirmation = false;
+  LinearLine linear;
 };
 
 /// One variant of the experiment: what it sets beside `--set`.
@@ -209,7 +211,13 @@ std::string not_at_rest(const Experiment& experiment, const Plan& plan) {
   dynamics.evaluate(Purpose::inverse_dynamics, {span_of(at.psi), span_of(at.psid), span_of(at.psidd), 0},
                     span_of(needed));
   const Vector given = settings.about_torque, of_motors = needed.head(given.size());
-  const double size = 1e-9 + of_motors.cwiseAbs().maxCoeff();
+  const Vector of_free = needed.tail(needed.size() - given.size());
+  const double size = 1e-9 + needed.cwiseAbs().maxCoeff();
+  if (of_free.size() > 0 && of_free.cwiseAbs().maxCoeff() > 1e-6 * size)
+    return fmt::format(
+        "the state that is fed back about is no rest: it takes [{:.6g}] at the free coordinates, where no "
+        "motor acts; the loop comes to rest elsewhere, if it does, and was looked at here",
+        fmt::join(of_free, ", "));
   if (at.psid.isZero(0) && (given - of_motors).cwiseAbs().maxCoeff() <= 1e-3 * size) return {};
   return fmt::format(
       "the state that is fed back about is no rest: it takes a torque of [{:.6g}] and has "
@@ -333,6 +341,7 @@ int run(const StabilityLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   const ShownWork work(stop);
+  if (options.linear.asked) return tell_linear(options.linear, options.experiment, options);
   const nlohmann::json result = Study(options).run();
   const bool interrupted = result.contains("interrupted");
   if (options.json) {
@@ -377,6 +386,7 @@ void add_stability_command(CLI::App& app, int& status) {
       ->type_name("FILE");
   command->add_flag("--no-confirmation", options->no_confirmation,
                     "don't simulate disturbances on both sides of the limits");
+  add_linear_options(*command, options->linear);
   command->footer(
       "Plant, hold, delay and control law are linearised exactly at instants of the path; the limits are "
       "where\n"
@@ -387,7 +397,8 @@ void add_stability_command(CLI::App& app, int& status) {
       "Exit status 0 where the experiment as it stands is stable or marginal all along, 1 where it isn't.\n"
       "Examples:\n"
       "  mixloop stability experiments/paper.yaml --picture stability.svg\n"
-      "  mixloop stability experiments/paper.yaml --vary parameters.payload='0 kg,2 kg,5 kg,10 kg'");
+      "  mixloop stability experiments/paper.yaml --vary parameters.payload='0 kg,2 kg,5 kg,10 kg'\n"
+      "  mixloop stability experiments/cart_pole.yaml --linear --regulator 10,100,1,1 --torque-weights 0.1");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -12,7 +12,9 @@ namespace mixloop {
 /// knows of the robot, not what the plant is.
 class Controller {
  public:
-  Controller(Equations::Workspace dynamics, ControllerSettings settings);
+  /// `seen`: of each coordinate that the law takes, those of state_feedback or of the model, its place in
+  /// what is measured; -1 where it isn't, and none: each at its own.
+  Controller(Equations::Workspace dynamics, ControllerSettings settings, std::vector<int> seen = {});
 
   /// tau (n_u). Allocates nothing.
   void torque(const Measurement& now, const Reference& desired, std::span<double> tau);
@@ -21,10 +23,12 @@ class Controller {
   const Scene& scene() const { return dynamics_.scene(); }
 
  private:
+  void take(const Measurement& now);
   void feed_back(const Measurement& now, const Reference& desired, std::span<double> tau);
 
   Equations::Workspace dynamics_;
   ControllerSettings settings_;
+  std::vector<int> seen_;
   Vector psi_, psid_;          ///< n: where the model is evaluated, or how far off the state is
   Vector feedforward_, bias_;  ///< n_u, n
 };

@@ -28,8 +28,9 @@ struct Feedback {
   Matrix gain() const { return proportional + model; }
 };
 /// Of the law where the robot is `at` its reference (n), the free coordinates at rest; `model` is what the
-/// controller takes it for, fully_driven, with inverse_dynamics and linearisation.
+/// controller takes it for, fully_driven, with inverse_dynamics and linearisation; `of_model`: which of the
+/// robot's coordinates its own are, none: all.
 Feedback feedback(const ControllerSettings& settings, Equations::Workspace& model, const PsiMotion& at,
-                  double t);
+                  double t, std::span<const int> of_model = {});
 
 }  // namespace mixloop

@@ -77,10 +77,9 @@ std::unique_ptr<const Routine> Equations::made(const std::string& key, const std
 }
 
 std::shared_ptr<const Equations> equations_of(std::shared_ptr<const Scene> scene, Evaluation how,
-                                              std::initializer_list<Purpose> purposes,
+                                              const std::vector<Purpose>& purposes,
                                               Equations::Options options) {
-  return std::make_shared<const Equations>(std::move(scene), how,
-                                           std::span(purposes.begin(), purposes.size()), options);
+  return std::make_shared<const Equations>(std::move(scene), how, purposes, options);
 }
 
 Equations::Workspace::Workspace(std::shared_ptr<const Equations> equations,

@@ -58,7 +58,7 @@ class Equations {
 
 /// The same, to be shared.
 std::shared_ptr<const Equations> equations_of(std::shared_ptr<const Scene> scene, Evaluation how,
-                                              std::initializer_list<Purpose> purposes,
+                                              const std::vector<Purpose>& purposes,
                                               Equations::Options options = {});
 
 /// What evaluations need beside the equations, for the parameters' values in force. One thread at a time uses

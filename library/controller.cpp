@@ -2,6 +2,7 @@
 #include "controller/guarded_controller.hpp"
 
 #include "library/inside.hpp"
+#include "loop/measured.hpp"
 
 namespace mixloop::v1 {
 
@@ -14,7 +15,7 @@ Controller::Controller(const Experiment& experiment)
     : content_(inside::translated([&] {
         const mixloop::Experiment& inner = Inside::of(experiment);
         return std::make_unique<Content>(Content{make_guarded_controller(inner),
-                                                 static_cast<std::size_t>(inner.scene->n()),
+                                                 measured_coordinates(inner).size(),
                                                  static_cast<std::size_t>(inner.scene->n_u())});
       })) {}
 Controller::Controller(const Controller& other) : content_(std::make_unique<Content>(*other.content_)) {}

@@ -2,6 +2,7 @@
 #include "plant/plant.hpp"
 
 #include "library/inside.hpp"
+#include "loop/measured.hpp"
 
 namespace mixloop::v1 {
 namespace {
@@ -23,7 +24,7 @@ struct [[gnu::visibility("hidden")]] Plant::Content {
 
 Plant::Plant(const Experiment& experiment, const Plan& plan)
     : content_(inside::translated([&] {
-        const auto n = static_cast<std::size_t>(Inside::of(experiment).scene->n());
+        const auto n = measured_coordinates(Inside::of(experiment)).size();
         return std::make_unique<Content>(Content{plant_of(Inside::of(experiment), Inside::of(plan)),
                                                  std::vector<double>(n), std::vector<double>(n)});
       })) {}

@@ -14,6 +14,7 @@
 #include "loop/energy_balance.hpp"
 #include "loop/experiment_keys.hpp"
 #include "loop/free_motion.hpp"
+#include "loop/measured.hpp"
 #include "notation/formula.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
@@ -147,29 +148,6 @@ void read_motion(const Mapping& root, Experiment& experiment) {
   experiment.path.place = duration->place;
 }
 
-std::string described(std::span<const Scene::Independent> coordinates) {
-  std::string text;
-  for (const auto& coordinate : coordinates)
-    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", coordinate.name,
-                        coordinate.linear ? " (linear)" : "", coordinate.driven ? "" : " (free)");
-  return text;
-}
-
-/// A controller's torques go to the plant's motors one by one, and its measurements come so: by place, not by
-/// name.
-void require_same_coordinates(const Scene& controllers, const Scene& plants, const Place& place) {
-  const auto same = [](const Scene::Independent& a, const Scene::Independent& b) {
-    return a.name == b.name && a.linear == b.linear && a.driven == b.driven;
-  };
-  if (std::ranges::equal(controllers.independent, plants.independent, same)) return;
-  const bool as_many = controllers.n() == plants.n() && controllers.n_u() == plants.n_u();
-  throw InputError(
-      as_many ? "other_motors" : "wrong_size", place,
-      fmt::format("the controller's scene has the motors {}, the plant's {}; expected the same names, "
-                  "kinds and order",
-                  described(controllers.independent), described(plants.independent)));
-}
-
 void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   PlantSettings& plant = experiment.plant;
   const NodePtr faults = root.find("faults");
@@ -179,6 +157,13 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
                                          experiment.rate_hz, experiment.plant_parameters);
   if (const NodePtr seed = root.find("seed"))
     plant.seed = static_cast<std::uint64_t>(whole_number_of(*seed, 0, 1L << 53, "the seed"));
+  for (const Fault& fault : plant.faults.scheduled)
+    if (fault.target == Fault::Target::sensor &&
+        std::ranges::count(plant.sensors.unmeasured, fault.index) > 0)
+      throw InputError(
+          "not_measured", faults->place,
+          fmt::format("a fault of the sensor of '{}', which isn't measured (plant.sensors.free)",
+                      experiment.scene->independent[static_cast<std::size_t>(fault.index)].name));
   check_hardware(plant, root.find("plant"), faults);
 }
 
@@ -256,7 +241,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   experiment.controller_scene =
       other_scene ? std::make_shared<const Scene>(load_scene(scene_document_at(*other_scene, base, {})))
                   : experiment.scene;
-  if (other_scene) require_same_coordinates(*experiment.controller_scene, scene, other_scene->place);
+  if (other_scene) require_same_motors(*experiment.controller_scene, scene, other_scene->place);
 
   const NodePtr plant = root.find("plant");
   if (plant) experiment.plant = read_plant_settings(plant, scene, experiment.rate_hz);
@@ -264,6 +249,7 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
     experiment.deadline = read_deadline_settings(real_time);
   settle_safe_state(root, experiment);
   check_motion(experiment, controller, plant);
+  require_measured(experiment, controller);
   if (experiment.plant.continuous && !experiment.controller.safety.torque_rate_limit.empty())
     throw InputError(
         "out_of_range", find_entry(*controller, "safety")->place,
@@ -319,7 +305,8 @@ Controller make_controller(const Experiment& experiment) {
       has_gains(experiment.controller.law)
           ? equations_of(scene, experiment.evaluation, {Purpose::mass_times, Purpose::bias})
           : equations_of(scene, experiment.evaluation, {});
-  return Controller({equations, experiment.controller_parameters}, experiment.controller);
+  return Controller({equations, experiment.controller_parameters}, experiment.controller,
+                    seen_coordinates(experiment));
 }
 
 GuardedController make_guarded_controller(const Experiment& experiment) {
@@ -370,7 +357,9 @@ std::array<std::string, 4> common_ground(const Experiment& experiment) {
   path += " from";
   for (const double psi : experiment.plant.initial_psi) path += fmt::format(" {:a}", psi);
   for (const double value : experiment.parameters) parameters += fmt::format("{:a} ", value);
-  return {fmt::format("{:a}", experiment.rate_hz), experiment.scene->canonical, path, parameters};
+  std::string mechanism = experiment.scene->canonical;
+  for (const int i : experiment.plant.sensors.unmeasured) mechanism += fmt::format(" unmeasured {}", i);
+  return {fmt::format("{:a}", experiment.rate_hz), mechanism, path, parameters};
 }
 
 }  // namespace mixloop

@@ -58,9 +58,16 @@ void check_motion(const Experiment& experiment, const NodePtr& controller, const
 void settle_safe_state(const Mapping& root, Experiment& experiment) {
   experiment.deadline.kp = experiment.controller.kp;
   experiment.deadline.kv = experiment.controller.kv;
-  if (has_gains(experiment.controller.law)) return;
   const NodePtr real_time = root.find("real_time");
   const NodePtr state = real_time ? find_entry(*real_time, "safe_state") : nullptr;
+  const bool moves_on = experiment.scene->n() > experiment.scene->n_u();
+  if (experiment.deadline.safe_state == SafeState::brake && experiment.plant.partitions && moves_on)
+    throw InputError(
+        "out_of_range", state->place,
+        "the safe state brake holds the motors while free coordinates move on, and that is known in "
+        "the declared coordinates alone, which near_singular: switch leaves; expected zero_torque, or "
+        "near_singular: stop");
+  if (has_gains(experiment.controller.law)) return;
   if (!state) {
     experiment.deadline.safe_state = SafeState::zero_torque;
     return;

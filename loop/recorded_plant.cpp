@@ -59,8 +59,8 @@ RecordedPlant::RecordedPlant(const Experiment& experiment, const Plan& plan)
       plan_(plan),
       hardware_(make_deadline_plant(experiment, plan)),
       recorder_(experiment, plan),
-      psi_(map_of(plant().psi())),
-      psid_(map_of(plant().psid())) {}
+      psi_(static_cast<Eigen::Index>(plant().measured().size())),
+      psid_(psi_.size()) {}
 
 Measurement RecordedPlant::measure() {
   Plant& plant = hardware_.plant();

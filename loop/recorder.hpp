@@ -66,6 +66,8 @@ class Recorder {
     double friction = 1;
   };
   Conditions conditions(std::int64_t k) const;
+  /// The first tick of the safe state.
+  std::int64_t safe_from() const { return safe_from_; }
   double position_error() const { return error_; }  ///< at the latest state, m; 0 without a path
 
   Measures measures() const;

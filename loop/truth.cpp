@@ -20,17 +20,20 @@ TruthReader::Switched::Switched(const Experiment& experiment, Equations::Options
 
 TruthReader::TruthReader(const Experiment& experiment, const Recorder& recorder)
     : recorder_(recorder),
+      brakes_(experiment.deadline.safe_state == SafeState::brake),
       partitions_(experiment.plant.partitions),
       hand_(gives(Purpose::end_effector, experiment)),
       zdd_(gives(Purpose::forward_dynamics, experiment)) {
   const Equations::Options options{.friction_factor = experiment.plant.faults.change_friction()};
-  if (partitions_)
+  if (partitions_) {
     switched_.emplace(experiment, options);
-  else
-    dynamics_.emplace(
-        equations_of(experiment.scene, experiment.evaluation,
-                     {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy}, options),
-        experiment.plant_parameters);
+  } else {
+    std::vector<Purpose> purposes = {Purpose::forward_dynamics, Purpose::end_effector, Purpose::energy};
+    const int n = experiment.scene->n(), n_u = experiment.scene->n_u();
+    if (brakes_ && n > n_u) held_.emplace(n, n_u), purposes.push_back(Purpose::mass_matrix);
+    dynamics_.emplace(equations_of(experiment.scene, experiment.evaluation, purposes, options),
+                      experiment.plant_parameters);
+  }
   truth_.psidd = zdd_;
 }
 
@@ -38,6 +41,7 @@ const Truth& TruthReader::at(std::int64_t k) {
   take_conditions(k);
   if (switched_) recorder_.loops(k, switched_->motion);
   evaluate(Purpose::forward_dynamics, k, recorder_.applied(k), zdd_);
+  if (brakes_ && k >= recorder_.safe_from()) hold_motors(k);
   evaluate(Purpose::end_effector, k, zdd_, hand_);
   truth_.position = Eigen::Map<const Eigen::Vector3d>(hand_.data());
   truth_.velocity = Eigen::Map<const Eigen::Vector3d>(hand_.data() + 3);
@@ -50,6 +54,17 @@ const Truth& TruthReader::at(std::int64_t k) {
   truth_.psidd = zdd_;
   if (switched_) show_swapped(k);
   return truth_;
+}
+
+/// Locked motors don't accelerate, and what is free does as they stand.
+void TruthReader::hold_motors(std::int64_t k) {
+  Eigen::Map<Vector> zdd(zdd_.data(), static_cast<Eigen::Index>(zdd_.size()));
+  if (!held_) {
+    zdd.setZero();
+    return;
+  }
+  held_->look(*dynamics_, recorder_.psi(k), recorder_.time(k));
+  held_->hold(zdd);
 }
 
 /// In the coordinates in use.

@@ -31,9 +31,12 @@ class TruthReader {
   };
   void evaluate(Purpose purpose, std::int64_t k, std::span<const double> input, std::span<double> outputs);
   void take_conditions(std::int64_t k);
+  void hold_motors(std::int64_t k);
   void show_swapped(std::int64_t k);
 
   const Recorder& recorder_;
+  bool brakes_;  ///< in its safe state the plant's motors are locked
+  std::optional<HeldMotors> held_;
   std::shared_ptr<const std::vector<Partition>> partitions_;
   std::optional<Equations::Workspace> dynamics_;
   std::optional<Switched> switched_;  ///< one of the two

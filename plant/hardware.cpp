@@ -31,7 +31,7 @@ void check_hardware(const PlantSettings& settings, const NodePtr& entry, const N
     refuse("actuators", fmt::format("{} takes the Jacobian of ideal drives; expected another integrator",
                                     facts(settings.integrator).name));
   if (!settings.continuous) return;
-  if (settings.sensors.any())
+  if (settings.sensors.any() || !settings.sensors.unmeasured.empty())
     refuse("sensors",
            "with control: continuous the control law sees every stage, and sensors have a sample a tick; "
            "expected control: held");

@@ -50,10 +50,14 @@ class IdealPlant {
   /// The same by `rate(after, x, dx)`, `after` s after t.
   template <class Rate>
   void integrate(State& state, double t, double length, const Rate& rate) {
-    const auto at = [&](int, int, const T& after, const Vec<T>& x, Vec<T>& dx) { rate(after, x, dx); };
-    const auto linear = [&](const T& after, const Vec<T>& x, auto& jacobian) {
+    integrate_by(state, length, rate, [&](const T& after, const Vec<T>& x, auto& jacobian) {
       linearise(state, t + after, x, jacobian);
-    };
+    });
+  }
+  /// And `linear(after, x, jacobian)`, of methods that take one.
+  template <class Rate, class Linear>
+  void integrate_by(State& state, double length, const Rate& rate, const Linear& linear) {
+    const auto at = [&](int, int, const T& after, const Vec<T>& x, Vec<T>& dx) { rate(after, x, dx); };
     if (!model_.jacobian) return integrator_.advance(state.x, length, at, linear);
     // Methods with a Jacobian leave the work alone: tau . (psi+ - psi) of the motors, the torque held.
     before_ = state.x.head(n_u());
@@ -71,10 +75,7 @@ class IdealPlant {
     dx[2 * n()] = state.applied.dot(x.segment(n(), n_u()));
   }
 
- private:
-  Eigen::Index n() const { return static_cast<Eigen::Index>(model_.n); }
-  Eigen::Index n_u() const { return static_cast<Eigen::Index>(model_.n_u); }
-
+  /// psi'' by psi, psi' and, where the dynamics depend on it, t, what is applied held.
   void linearise(const State& state, const T& t, const Vec<T>& x, AccelerationJacobian<T>& jacobian) {
     const std::span<const T> psi(x.data(), model_.n), psid(x.data() + n(), model_.n);
     dynamics_.evaluate(Purpose::linearisation, {psi, psid, span_of(state.applied), t}, span_of(slopes_));
@@ -89,6 +90,10 @@ class IdealPlant {
     dynamics_.evaluate(Purpose::forward_dynamics, {psi, psid, span_of(state.applied), t - d}, earlier);
     jacobian.by_t = (jacobian.by_t - slopes_.head(n())) / (2 * d);
   }
+
+ private:
+  Eigen::Index n() const { return static_cast<Eigen::Index>(model_.n); }
+  Eigen::Index n_u() const { return static_cast<Eigen::Index>(model_.n_u); }
 
   PlantModel model_;
   Dynamics dynamics_;

@@ -20,9 +20,10 @@ std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> sc
                                                  const PlantSettings& settings) {
   const Equations::Options options = options_of(settings);
   if (settings.partitions) scene = settings.partitions->front().scene;
-  if (!facts(settings.integrator).jacobian)
-    return equations_of(std::move(scene), how, {Purpose::forward_dynamics}, options);
-  return equations_of(std::move(scene), how, {Purpose::forward_dynamics, Purpose::linearisation}, options);
+  std::vector<Purpose> purposes = {Purpose::forward_dynamics};
+  if (facts(settings.integrator).jacobian) purposes.push_back(Purpose::linearisation);
+  if (scene->n() > scene->n_u()) purposes.push_back(Purpose::mass_matrix);  // by which HeldMotors go
+  return equations_of(std::move(scene), how, purposes, options);
 }
 
 /// What acts on the mechanism: ideal drives or not.
@@ -31,6 +32,7 @@ struct Plant::Drives {
 
   void take(IdealState<double>&, std::span<const double> tau) const { plant.take(tau); }
   void integrate(IdealState<double>& motion, double t, double length) const {
+    if (motion.locked) return plant.integrate_held(t, length);
     plant.hardware_ || plant.is_switched() ? plant.integrate_driven(t, length)
                                            : plant.ideal_.integrate(motion, t, length);
   }
@@ -41,7 +43,12 @@ Plant::Plant(Equations::Workspace dynamics, const PlantSettings& settings, doubl
     : ideal_{plant_model(settings, dynamics.scene(), rate_hz), std::move(dynamics)},
       rows_(stage_rows(settings.integrator)),
       faults_may_come_(settings.faults.injected),
+      measured_(settings.sensors.measured(model().n)),
       state_{.motion = state_at(model(), psi0, psid0)} {
+  if (model().n > model().n_u) {
+    held_.emplace(static_cast<Eigen::Index>(model().n), static_cast<Eigen::Index>(model().n_u));
+    held_rates_.resize(state_.motion.x.size());
+  }
   ideal_.dynamics().hold_anchor();
   if (settings.partitions) {
     partitions_.emplace(settings.partitions, equations().evaluation(),
@@ -124,11 +131,42 @@ void Plant::finish_tick() {
 }
 
 void Plant::lock() {
+  auto& motion = state_.motion;
   const auto n = static_cast<Eigen::Index>(model().n);
-  state_.motion.x.segment(n, n).setZero();
+  if (held_) {
+    held_->look(ideal_.dynamics(), motion.psi(), time() + motion.within);
+    held_->hold(motion.x.segment(n, n));
+  } else {
+    motion.x.segment(n, n).setZero();
+  }
   state_.loops.rate.setZero();
-  state_.motion.applied.setZero();
-  state_.motion.locked = true;
+  motion.applied.setZero();
+  motion.locked = true;
+}
+
+/// What is free moves on; nothing else does.
+void Plant::integrate_held(double t, double length) {
+  if (!held_) return;
+  auto& motion = state_.motion;
+  const auto n = static_cast<Eigen::Index>(model().n);
+  const auto look = [&](double at, const Vector& x, Vector& dx) {
+    ideal_.rate_of(motion, at, x, dx);
+    held_->look(ideal_.dynamics(), {x.data(), model().n}, at);
+  };
+  const auto rate = [&](double after, const Vector& x, Vector& dx) {
+    look(t + after, x, dx);
+    held_->hold(dx.segment(n, n));
+  };
+  const auto linear = [&](double after, const Vector& x, auto& jacobian) {
+    look(t + after, x, held_rates_);
+    motion.applied = held_->torque(held_rates_.segment(n, n));
+    ideal_.linearise(motion, t + after, x, jacobian);
+    motion.applied.setZero();
+    held_->hold(jacobian.by_q);
+    held_->hold(jacobian.by_v);
+    held_->hold(jacobian.by_t);
+  };
+  ideal_.integrate_by(motion, length, rate, linear);
 }
 
 void Plant::acceleration(std::span<double> zdd) {

@@ -8,6 +8,7 @@
 #include "dynamics/equations.hpp"
 #include "dynamics/partitions.hpp"
 #include "plant/hardware.hpp"
+#include "plant/held_motors.hpp"
 #include "plant/ideal_plant.hpp"
 
 namespace mixloop {
@@ -45,10 +46,14 @@ class Plant {
   /// What acts from time() on (n_u), after delay, saturation and what the drives make of it, N m or N.
   std::span<const double> applied() const { return span_of(state_.motion.applied); }
 
-  /// What the sensors say at tick(), n each; true where a reading is older than it should be.
+  /// What the sensors say at tick() of what they measure; true where a reading is older than it should be.
   bool measure(std::span<double> psi, std::span<double> psid);
+  /// Which of the independent coordinates are measured, the motors first.
+  std::span<const int> measured() const { return measured_; }
   /// Whether that is psi() and psid().
-  bool measures_exactly() const { return !hardware_ || !hardware_->sensors; }
+  bool measures_exactly() const {
+    return (!hardware_ || !hardware_->sensors) && measured_.size() == psi().size();
+  }
   /// Takes a fault, which acts from tick() on or later. False: it can't be (objection says why), too many
   /// wait for their time, or the settings don't allow any.
   bool inject(const Fault& fault);
@@ -79,8 +84,8 @@ class Plant {
   /// Goes on to the next tick from where take_effect left it, or from the tick's start.
   void finish_tick();
 
-  /// The motors lock where they stand, for good: velocities are zero and positions stay. What that absorbs is
-  /// no work of theirs.
+  /// The motors lock where they stand, for good: their velocities are zero and their positions stay. What
+  /// that absorbs is no work of theirs. Free coordinates move on (HeldMotors).
   void lock();
 
   /// Goes on to the next tick, `control(row, t, psi, psid, tau)` evaluated at every stage of the method; rows
@@ -123,13 +128,17 @@ class Plant {
   void take_changes();
   void take_by_hardware(std::span<const double> tau);
   void integrate_driven(double t, double length);
+  void integrate_held(double t, double length);
   void drive(double s, std::span<const double> psi, std::span<const double> psid);
   void driven_rate_of(double s, double t, const Vector& x, Vector& dx);
 
   IdealPlant<double, Equations::Workspace> ideal_;
   StageRows rows_;
-  bool faults_may_come_;              ///< by inject
+  bool faults_may_come_;  ///< by inject
+  std::vector<int> measured_;
   std::optional<Hardware> hardware_;  ///< none: ideal
+  std::optional<HeldMotors> held_;    ///< where there are free coordinates
+  Vector held_rates_;                 ///< x' of the locked plant, of methods with a Jacobian
   PlantState state_;
   bool is_closed_ = true;                 ///< closures hold at tick()
   std::optional<Partitions> partitions_;  ///< where coordinates are switched

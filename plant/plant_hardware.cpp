@@ -5,12 +5,15 @@
 namespace mixloop {
 
 bool Plant::measure(std::span<double> psi_out, std::span<double> psid_out) {
-  if (!measures_exactly())
+  if (hardware_ && hardware_->sensors)
     return hardware_->sensors->measure(state_.hardware.sensors, tick(), psi(), psid(),
                                        hardware_->faults ? &state_.hardware.faults : nullptr, psi_out,
                                        psid_out);
-  std::copy(psi().begin(), psi().end(), psi_out.begin());
-  std::copy(psid().begin(), psid().end(), psid_out.begin());
+  for (std::size_t i = 0; i < measured_.size(); ++i) {
+    const auto of = static_cast<std::size_t>(measured_[i]);
+    psi_out[i] = psi()[of];
+    psid_out[i] = psid()[of];
+  }
   return false;
 }
 

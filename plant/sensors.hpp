@@ -20,15 +20,19 @@ struct SensorSettings {
   std::vector<double> drop;         ///< probability that a tick's reading isn't delivered: the last one stays
   bool differentiated = false;      ///< the velocity is the position's difference over a tick
   double velocity_filter = 0;       ///< Hz, of a first-order low-pass after it; 0: none
+  std::vector<int> unmeasured;      ///< free coordinates without a sensor, in the scene's order
 
   bool any() const {
     return !resolution.empty() || !noise.empty() || !bias.empty() || !delay.empty() || !drop.empty() ||
            differentiated;
   }
   bool random() const { return !noise.empty() || !drop.empty(); }
+  /// Which of n independent coordinates are measured.
+  std::vector<int> measured(std::size_t n) const;
 };
 
-/// Reads `{resolution, noise, bias, delay, drop, velocity: measured | differentiated, velocity_filter}`.
+/// Reads `{free, resolution, noise, bias, delay, drop, velocity: measured | differentiated,
+/// velocity_filter}`.
 SensorSettings read_sensor_settings(const NodePtr& node, const Scene& scene, double rate_hz);
 
 /// The sensors: of psi a reading, psi + bias + noise rounded to the resolution and through the sensor's
@@ -55,13 +59,15 @@ class Sensors {
   /// Before any measurement.
   State state() const;
 
-  /// At each tick, in order (the same one again gives the same); true where a reading is stale. The first
-  /// tick's are always delivered, and stand for what is older. `faults` may be null.
+  /// Of psi and psid (n) the measured ones, at each tick, in order (the same one again gives the same); true
+  /// where a reading is stale. The first tick's are always delivered, and stand for what is older. `faults`
+  /// may be null.
   bool measure(State& state, std::int64_t tick, std::span<const double> psi, std::span<const double> psid,
                Faults::State* faults, std::span<double> psi_out, std::span<double> psid_out) const;
 
  private:
   struct Channel {
+    std::size_t coordinate;
     double resolution, noise, bias, drop;
     std::size_t delay;
   };

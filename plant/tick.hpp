@@ -11,10 +11,10 @@ namespace mixloop {
 // A plant's tick on any scalar and by any drives. `drives` have take(state, tau): tau acts from now on; and
 // integrate(state, t, length): goes on from time t over `length` s.
 
-/// Over `length` s from time t, unless the motors are locked.
+/// Over `length` s from time t.
 template <class T, class Drives>
 void move_on(IdealState<T>& state, double t, double length, Drives&& drives) {
-  if (length > 0 && !state.locked) drives.integrate(state, t, length);
+  if (length > 0) drives.integrate(state, t, length);
 }
 
 /// The state at tick 0, at rest unless rates are given.

@@ -36,8 +36,8 @@ FaultEar::FaultEar(Bus& bus, const RecordedPlant& run, bool allowed, std::int64_
       allowed_(allowed),
       config_(config),
       report_(report),
-      inbox_(run.experiment().scene->n()),
-      answer_(run.experiment().scene->n()) {
+      inbox_(static_cast<int>(run.plant().measured().size())),
+      answer_(static_cast<int>(run.plant().measured().size())) {
   heard_.reserve(Faults::kWaiting);
   bus_.subscribe<&FaultEar::on_fault>(channel_, this);
 }
@@ -96,6 +96,10 @@ void FaultEar::take(const fault_t& message) {
             : fmt::format("there is no parameter {}; the scene's parameters: {}", message.index + 1,
                           counted_parameters(scene)));
   require_possible(fault, ground);
+  if (fault.target == Fault::Target::sensor)
+    if (const auto& without = experiment.plant.sensors.unmeasured;
+        std::ranges::count(without, fault.index) > 0)
+      throw InputError("not_measured", {}, "that coordinate isn't measured: it has no sensor");
   if (const char* reason = run_.deadlines().no_room_for(fault, heard_))
     throw InputError("out_of_range", {}, reason);
   // Also a plant that is paused can be healed, however much it has heard in its tick.

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "loop/measured.hpp"
 #include "loop/result.hpp"
 #include "processes/config_words.hpp"
 
@@ -12,7 +13,7 @@ namespace mixloop {
 
 PeerOptions peer_options(const PeerLine& line, const Experiment& experiment, std::int64_t last_tick,
                          const char* program) {
-  return {.n = experiment.scene->n(),
+  return {.n = static_cast<int>(measured_coordinates(experiment).size()),
           .n_u = experiment.scene->n_u(),
           .session = line.session,
           .config = config_of(common_ground(experiment)),

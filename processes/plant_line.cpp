@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "loop/measured.hpp"
 #include "processes/config_words.hpp"
 #include "processes/speed.hpp"
 
@@ -11,7 +12,9 @@ namespace mixloop {
 PlantOptions plant_options(const PlantLine& line, const Experiment& experiment, std::int64_t last_tick,
                            std::int64_t session) {
   const std::string& speed = line.speed;
-  return {.n = experiment.scene->n(),
+  const auto measured = static_cast<int>(measured_coordinates(experiment).size());
+  return {.n = measured,
+          .unmeasured = experiment.scene->n() - measured,
           .n_u = experiment.scene->n_u(),
           .last_tick = last_tick,
           .references = experiment.has_path(),

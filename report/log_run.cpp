@@ -47,7 +47,8 @@ class SessionReader {
         rate_hz_(rate_hz),
         blank_(sizes),
         on_tick_(on_tick),
-        inboxes_(session.n, static_cast<int>(sizes.n_u), static_cast<int>(sizes.n_u), session.n),
+        inboxes_(session.n, static_cast<int>(sizes.n_u), static_cast<int>(sizes.n_u),
+                 session.n_all > 0 ? session.n_all : session.n),
         ticks_(
             {.farthest_jump = kFarthestJump, .on_tick = [this](const HeardTick& tick) { tell_up_to(tick); }}),
         next_(session.first_tick),
@@ -150,16 +151,27 @@ class SessionReader {
   void take_state(const state_t& state, Tick& tick) {
     facts.is_real_time |= (state.flags & state_t::FLAG_REAL_TIME) != 0;
     facts.reached_safe_state |= (state.flags & state_t::FLAG_SAFE_STATE) != 0;
-    tick.psi = state.psi_measured;
-    tick.psid = state.psid_measured;
+    for (std::size_t i = 0; i < state.psi_measured.size(); ++i) {
+      const std::size_t of = session_.measured.empty() ? i : static_cast<std::size_t>(session_.measured[i]);
+      if (of >= tick.psi.size()) continue;
+      tick.psi[of] = state.psi_measured[i];
+      tick.psid[of] = state.psid_measured[i];
+    }
   }
 
   void take_truth(const truth_t& truth, Tick& tick) {
+    if (tick.psi.size() > static_cast<std::size_t>(session_.n) && truth.psi.size() == tick.psi.size())
+      take_unmeasured(truth, tick);
     std::copy_n(truth.tau_applied.begin(), tick.tau_applied.size(), tick.tau_applied.begin());
     copy_motion(truth.position, truth.velocity, truth.acceleration, tick.actual);
     tick.kinetic_energy = truth.kinetic_energy;
     tick.potential_energy = truth.potential_energy;
     tick.work = truth.work;
+  }
+
+  void take_unmeasured(const truth_t& truth, Tick& tick) {
+    for (std::size_t i = 0; i < tick.psi.size(); ++i)
+      if (std::isnan(tick.psi[i])) tick.psi[i] = truth.psi[i], tick.psid[i] = truth.psid[i];
   }
 
   // W(k) = W(k-1) + tau(k-1) . (psi(k) - psi(k-1)) for a torque that is held; over a gap the last one that is
@@ -198,6 +210,7 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
   std::map<std::int64_t, LogSession> found;
   std::map<std::int64_t, std::int64_t> utime;   // of the session's last tick
   std::map<std::int64_t, std::int32_t> motors;  // as the session's first command counts them
+  std::map<std::int64_t, std::int32_t> all;     // and its first truth
   while (const LogEvent* event = reader.next()) {
     work_goes_on(kReading, reader.position(), reader.size());
     const auto header = peek(event->data);
@@ -206,6 +219,7 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
       return kind_of(*event, prefix) == kind && fingerprint(event->data) == type;
     };
     if (is("COMMAND", command_t::getHash())) motors.try_emplace(header->session, header->n);
+    if (is("TRUTH", truth_t::getHash())) all.try_emplace(header->session, header->n);
     if (!is("STATE", state_t::getHash())) continue;
     auto [at, is_new] = found.try_emplace(
         header->session,
@@ -223,6 +237,7 @@ std::vector<LogSession> sessions_in(const std::filesystem::path& log, const std:
   for (auto& [id, session] : found) {
     session.rate_hz = rate_of(session.last_tick, utime[id]);
     session.n_u = motors[id];
+    session.n_all = all[id];
     sessions.push_back(session);
   }
   std::stable_sort(sessions.begin(), sessions.end(),

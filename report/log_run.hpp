@@ -16,9 +16,11 @@ namespace mixloop {
 /// One run of a plant in a log.
 struct LogSession {
   std::int64_t session = 0;
-  std::int32_t n = 0;       ///< measured coordinates
-  std::int32_t n_u = 0;     ///< motors, by COMMAND; 0: there is none
-  std::int64_t states = 0;  ///< STATE messages, those sent again included
+  std::int32_t n = 0;              ///< measured coordinates
+  std::int32_t n_u = 0;            ///< motors, by COMMAND; 0: there is none
+  std::int32_t n_all = 0;          ///< independent coordinates, by TRUTH; 0: there is none
+  std::vector<int> measured = {};  ///< which of them n counts; none: the first ones, as far as is known
+  std::int64_t states = 0;         ///< STATE messages, those sent again included
   std::int64_t first_tick = 0, last_tick = 0;
   double rate_hz = 0;  ///< as tick and plant time tell it
 };

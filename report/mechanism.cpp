@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "report/mechanism.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/procedure/constraints.hpp"
@@ -19,7 +20,7 @@ Mechanism::Mechanism(std::shared_ptr<const Scene> scene, std::vector<double> par
       hand_(dynamics_.outputs(Purpose::end_effector)) {}
 
 void Mechanism::complete(Tick& tick) {
-  if (tick.psi.empty() || std::isnan(tick.psi[0])) return;
+  if (tick.psi.empty() || std::ranges::any_of(tick.psi, [](double psi) { return std::isnan(psi); })) return;
   coordinates<double>(model_, std::span<const double>(tick.psi), tick.t, ws_);
   tick.q.assign(ws_.q.begin(), ws_.q.end());
   if (!scene_->end_effector.named) {

@@ -34,7 +34,12 @@ ordered_json names_json(const ReportedRun& run) {
       linear |= transform.coordinate == static_cast<int>(j) && transform.prismatic;
     coordinates.push_back({{"name", run.scene->coordinates[j].name}, {"linear", linear}});
   }
-  return {{"motors", motors}, {"coordinates", coordinates}};
+  ordered_json names = {{"motors", motors}, {"coordinates", coordinates}};
+  for (std::size_t i = run.sizes.n_u; i < run.sizes.n; ++i)
+    names["free"].push_back(
+        {{"name", run.scene ? run.scene->independent[i].name : "psi" + std::to_string(i + 1)},
+         {"linear", run.scene && run.scene->independent[i].linear}});
+  return names;
 }
 
 // TIMING's times in seconds; its counts are numbers like all others of the row.

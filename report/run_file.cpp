@@ -195,7 +195,8 @@ RunFile opened_log(const std::filesystem::path& log, const ReadOptions& options,
               .log = log};
   const auto sessions = sessions_in(log, options.prefix);
   run.session = chosen_session(log, sessions, options.session, run.notes);
-  run.sizes.n = static_cast<std::size_t>(run.session->n);
+  run.sizes.n = known.scene ? known.scene->independent.size()
+                            : static_cast<std::size_t>(std::max(run.session->n, run.session->n_all));
   const auto commanded = static_cast<std::size_t>(run.session->n_u);
   run.sizes.n_u = known.scene                                 ? known.scene->motors().size()
                   : commanded > 0 && commanded <= run.sizes.n ? commanded
@@ -204,6 +205,38 @@ RunFile opened_log(const std::filesystem::path& log, const ReadOptions& options,
   if (known.inputs.is_object()) run.label = known.inputs.value("name", run.label);
   run.rate_hz = known.rate_hz > 0 ? known.rate_hz : run.session->rate_hz;
   return run;
+}
+
+/// A list or value among kept inputs; null where there is none.
+const nlohmann::ordered_json* entry_of(const nlohmann::ordered_json& inputs,
+                                       std::initializer_list<const char*> keys) {
+  const auto* entry = &inputs;
+  for (const char* key : keys) {
+    if (!entry->is_object() || !entry->contains(key)) return nullptr;
+    entry = &(*entry)[key];
+  }
+  return entry;
+}
+
+/// Whether the plant of kept inputs switches coordinates.
+bool switches(const nlohmann::ordered_json& inputs) {
+  const auto* said = entry_of(inputs, {"experiment", "plant", "near_singular"});
+  return said && *said == "switch";
+}
+
+/// Which independent coordinates the plant of kept inputs measures.
+std::vector<int> measured(const nlohmann::ordered_json& inputs, const Scene& scene) {
+  const auto* free = entry_of(inputs, {"experiment", "plant", "sensors", "free"});
+  std::vector<int> all;
+  for (int i = 0; i < scene.n(); ++i) {
+    const auto& coordinate = scene.independent[static_cast<std::size_t>(i)];
+    const auto is_named = [&] {
+      return free->is_array() ? std::find(free->begin(), free->end(), coordinate.name) != free->end()
+                              : *free == coordinate.name;
+    };
+    if (coordinate.driven || !free || is_named()) all.push_back(i);
+  }
+  return all;
 }
 
 /// A run in real time kept when each command arrived, on the plant's own clock: better than a logger's.
@@ -252,7 +285,11 @@ LogFacts read_log_alone(RunFile& run, Mechanism* mechanism, const std::function<
   if (const std::string dropped = facts.timing.empty() ? "" : dropped_in(facts.timing.back());
       !dropped.empty())
     run.notes.push_back("By its TIMING the plant dropped messages: " + dropped + ".");
-  if (!facts.has_truth && run.scene)
+  if (!facts.has_truth && run.scene && run.session->measured.size() < run.sizes.n)
+    run.notes.push_back(
+        "The log has no TRUTH, and not all free coordinates are measured: how the mechanism stands isn't "
+        "known.");
+  else if (!facts.has_truth && run.scene)
     run.notes.push_back(
         "The log has no TRUTH: the end effector's motion and the energies are worked out from the measured "
         "state and "
@@ -263,16 +300,6 @@ LogFacts read_log_alone(RunFile& run, Mechanism* mechanism, const std::function<
         "no actual "
         "motion of the end effector.");
   return facts;
-}
-
-/// Whether the plant of kept inputs switches coordinates.
-bool switches(const nlohmann::ordered_json& inputs) {
-  const auto* entry = &inputs;
-  for (const char* key : {"experiment", "plant", "near_singular"}) {
-    if (!entry->is_object() || !entry->contains(key)) return false;
-    entry = &(*entry)[key];
-  }
-  return *entry == "switch";
 }
 
 }  // namespace
@@ -296,13 +323,18 @@ RunFile open_run(const std::filesystem::path& path, const ReadOptions& options) 
   run.scene = known.scene;
   run.parameters = known.parameters;
   if (!run.scene) return run;
-  const auto require_as_many = [&](const char* what, std::size_t has, std::size_t scene_has) {
-    if (has != scene_has)
-      throw InputError("wrong_size", {run.source},
-                       fmt::format("{} {}; the scene has {}", has, what, scene_has));
+  const auto require_as_many = [&](const char* what, std::size_t has, std::size_t should,
+                                   const char* says = "the scene has") {
+    if (has != should)
+      throw InputError("wrong_size", {run.source}, fmt::format("{} {}; {} {}", has, what, says, should));
   };
   require_as_many("motors", run.sizes.n_u, run.scene->motors().size());
   require_as_many("independent coordinates", run.sizes.n, run.scene->independent.size());
+  if (run.session) {
+    run.session->measured = measured(run.inputs, *run.scene);
+    require_as_many("measured coordinates", static_cast<std::size_t>(run.session->n),
+                    run.session->measured.size(), "the experiment measures");
+  }
   run.sizes.m = run.scene->coordinates.size();
   return run;
 }

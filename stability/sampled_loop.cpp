@@ -8,31 +8,26 @@
 namespace mixloop {
 namespace {
 
-/// e^{As} and int_0^s e^{A sigma} d sigma B, from the exponential of [[A, B], [0, 0]] s (van Loan 1978).
-struct Hold {
-  Matrix Phi, Gamma;
-
-  Hold(const LinearLoop& loop, double s) {
-    const auto rows = loop.A.rows(), columns = loop.B.cols();
-    Matrix block = Matrix::Zero(rows + columns, rows + columns);
-    block.topLeftCorner(rows, rows) = loop.A * s;
-    block.topRightCorner(rows, columns) = loop.B * s;
-    const Matrix held = exponential(block);
-    Phi = held.topLeftCorner(rows, rows);
-    Gamma = held.topRightCorner(rows, columns);
-  }
-};
-
 double radius_of(const Eigen::VectorXcd& values) { return values.cwiseAbs().maxCoeff(); }
 
 }  // namespace
+
+Held::Held(const Matrix& A, const Matrix& B, double s) {
+  const auto rows = A.rows(), columns = B.cols();
+  Matrix block = Matrix::Zero(rows + columns, rows + columns);
+  block.topLeftCorner(rows, rows) = A * s;
+  block.topRightCorner(rows, columns) = B * s;
+  const Matrix held = exponential(block);
+  Phi = held.topLeftCorner(rows, rows);
+  Gamma = held.topRightCorner(rows, columns);
+}
 
 Matrix sampled_transition(const LinearLoop& loop, const Matrix& gain, const Sampling& sampling) {
   const auto states = loop.A.rows(), n_u = loop.B.cols();
   // A delay within a billionth of whole ticks is whole, as the plant has it.
   const auto d = static_cast<Eigen::Index>(std::floor(sampling.delay / sampling.tick + 1e-9));
   const double rest = std::max(0.0, sampling.delay - static_cast<double>(d) * sampling.tick);
-  const Hold after(loop, sampling.tick - rest), before(loop, rest);
+  const Held after(loop.A, loop.B, sampling.tick - rest), before(loop.A, loop.B, rest);
 
   Matrix next = Matrix::Zero(states + n_u * (d + 1), states + n_u * (d + 1));
   next.topLeftCorner(states, states) = after.Phi * before.Phi;

@@ -13,6 +13,15 @@ struct Sampling {
   double delay = 0;    ///< s: u(t_k) acts from t_k + delay on
 };
 
+/// What a torque that is held over `s` seconds makes of a state: x(s) = Phi x + Gamma u,
+///   Phi = e^{As},  Gamma = int_0^s e^{A sigma} d sigma B
+/// by the exponential of [[A, B], [0, 0]] s (van Loan 1978).
+struct Held {
+  Matrix Phi, Gamma;
+
+  Held(const Matrix& A, const Matrix& B, double s);
+};
+
 /// The state's transition over one tick with the torque held from command to command, (2n + n_u (d + 1))
 /// square, d whole ticks of delay: states (x_k, u_{k-1}, ..., u_{k-d-1}).
 ///   x_{k+1} = e^{AT} x_k + G_0 u_{k-d} + G_1 u_{k-d-1},  delay = d T + r:

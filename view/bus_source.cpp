@@ -21,10 +21,19 @@ nlohmann::json desired_path(const Experiment& experiment) {
   return path_json(path);
 }
 
+const Experiment& with_all_measured(const Experiment& experiment) {
+  if (experiment.plant.sensors.unmeasured.empty()) return experiment;
+  throw InputError(
+      "not_measured", {experiment.file.string()},
+      "the plant's sensors leave free coordinates unmeasured (plant.sensors.free), so STATE doesn't say "
+      "how they stand and no pose can be drawn; expected what `mixloop run --out` keeps, or all of them "
+      "measured");
+}
+
 }  // namespace
 
 BusSource::BusSource(const BusOptions& bus, const Experiment& experiment, std::int64_t config)
-    : experiment_(experiment),
+    : experiment_(with_all_measured(experiment)),
       config_(config),
       path_(desired_path(experiment)),
       bus_(bus),

@@ -76,7 +76,9 @@ bool Watch::hear(const Message& message, ChannelCount& count, Instant at) {
     return true;
   }
   constexpr bool of_motors = std::is_same_v<Message, command_t> || std::is_same_v<Message, reference_t>;
-  if (static_cast<std::size_t>(message.n) != (of_motors ? n_u_ : n_)) return false;
+  const std::size_t n = static_cast<std::size_t>(message.n), measured = of_motors ? n_u_ : n_;
+  // TRUTH counts what isn't measured, too.
+  if (std::is_same_v<Message, truth_t> ? n < measured : n != measured) return false;
   count.tick(message.seq);
   on(message, at);
   return true;

@@ -72,13 +72,13 @@ std::string listed(const std::vector<std::string>& names) {
 std::string description(const Model<double>& model, const Workspace<double>& ws, const FreeMotion& motion) {
   const Scene& scene = *model.scene;
   std::vector<std::string> coordinates, bodies;
-  bool driven = true;
+  bool driven = true, free = true;
   const Vector share = motion.psid.cwiseAbs().cwiseProduct(ws.M.diagonal().cwiseSqrt());
   for (Eigen::Index i = 0; i < model.n(); ++i) {
     if (motion.each ? motion.psid[i] == 0 : share[i] < 0.1 * share.maxCoeff()) continue;
     const auto& independent = scene.independent[static_cast<std::size_t>(i)];
     coordinates.push_back(independent.name);
-    driven = driven && independent.driven;
+    (independent.driven ? free : driven) = false;
   }
   const Vector moved = ws.C * motion.psid;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -87,8 +87,11 @@ std::string description(const Model<double>& model, const Workspace<double>& ws,
       bodies.push_back(scene.bodies[b].name);
   }
   const bool several = coordinates.size() > 1;
-  const std::string who =
-      fmt::format("{}{} {}", driven ? "motor" : "coordinate", several ? "s" : "", listed(coordinates));
+  const std::string who = fmt::format("{}{} {}",
+                                      driven ? "motor"
+                                      : free ? "free coordinate"
+                                             : "coordinate",
+                                      several ? "s" : "", listed(coordinates));
   if (!motion.each) return who + " can move together without any inertia against it";
   if (bodies.empty())
     return fmt::format("no body hangs on {}; expected one that it moves, or the scene without it", who);

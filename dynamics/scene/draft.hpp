@@ -54,7 +54,7 @@ void check_symbol_name(const std::string& name, const Place& place);
 // The sections, in the order in which their names depend on each other.
 void read_parameters(const Mapping& root, SceneDraft& draft);
 void read_constants(const Mapping& root, SceneDraft& draft);
-void read_motors(const Mapping& root, SceneDraft& draft);
+void read_independent(const Mapping& root, SceneDraft& draft);
 void read_constraints(const Mapping& root, SceneDraft& draft);
 void read_transforms(const Mapping& root, SceneDraft& draft);
 void read_bodies(const Mapping& root, SceneDraft& draft);

@@ -15,7 +15,7 @@ namespace mixloop {
 namespace {
 
 constexpr std::size_t kMostParameters = 256;
-constexpr std::size_t kMostMotors = 64;
+constexpr std::size_t kMostIndependent = 64;
 constexpr std::size_t kMostCoordinates = 256;
 
 const Node& constraints_of(const Mapping& root) {
@@ -54,15 +54,46 @@ struct Listed {
   std::optional<Dimension> dimension;
 };
 
-Listed listed(const Node& item) {
+/// `what`: one of those that are listed.
+Listed of_kind(const Node::Entry& entry, const std::string& what) {
+  const bool linear = word_of(*entry.value, {"rotary", "linear"}, "the " + what + "'s kind") == 1;
+  return {entry.key, entry.place, linear ? kLength : kPure};
+}
+
+Listed listed(const Node& item, const std::string& what) {
   if (item.kind != Node::Kind::mapping)
-    return {text_of(item, "a coordinate's name"), item.place, std::nullopt};
+    return {text_of(item, "a " + what + "'s name"), item.place, std::nullopt};
   if (item.entries.size() != 1)
     throw InputError("wrong_size", item.place,
-                     "found " + describe(item) + "; expected a coordinate as name: rotary or name: linear");
-  const auto& [name, place, kind] = item.entries.front();
-  const bool linear = word_of(*kind, {"rotary", "linear"}, "the coordinate's kind") == 1;
-  return {name, place, linear ? kLength : kPure};
+                     "found " + describe(item) + "; expected a " + what + " as name: rotary or name: linear");
+  return of_kind(item.entries.front(), what);
+}
+
+/// A list of names, each alone or {name: kind}, or a mapping of all.
+std::vector<Listed> listed_in(const NodePtr& node, std::size_t most, const char* what) {
+  std::vector<Listed> all;
+  if (node->kind != Node::Kind::mapping) {
+    for (const auto& item : items_within(node, 1, most, fmt::format("the {}s' names", what)))
+      all.push_back(listed(*item, what));
+    return all;
+  }
+  if (node->entries.empty() || node->entries.size() > most)
+    throw InputError("wrong_size", node->place,
+                     fmt::format("found {} {}s; expected from 1 to {}", node->entries.size(), what, most));
+  for (const auto& entry : node->entries) all.push_back(of_kind(entry, what));
+  return all;
+}
+
+/// The motors, or the free coordinates behind them.
+void add_independent(const NodePtr& node, bool driven, SceneDraft& draft) {
+  Scene& scene = draft.scene;
+  const std::size_t most = kMostIndependent - scene.independent.size();
+  for (const Listed& said : listed_in(node, most, driven ? "motor" : "free coordinate")) {
+    check_symbol_name(said.name, said.place);
+    const Dimension dimension = said.dimension.value_or(kPure);
+    draft.moving.define_symbol(said.name, Symbols(scene).psi0 + scene.n(), dimension, said.place);
+    scene.independent.push_back({said.name, dimension.same_powers(kLength), driven});
+  }
 }
 
 /// One without a formula: what it is, by its own word or the transform that it varies.
@@ -82,7 +113,7 @@ Scene::Coordinate solved_coordinate(const Listed& said, const Mapping& root) {
 
 void list_coordinates(const NodePtr& list, const Node& constraints, const Mapping& root, SceneDraft& draft) {
   for (const auto& item : items_within(list, 1, kMostCoordinates, "the coordinates' names")) {
-    const Listed said = listed(*item);
+    const Listed said = listed(*item, "coordinate");
     check_symbol_name(said.name, said.place);
     if (!draft.coordinate_index.emplace(said.name, draft.scene.m()).second)
       throw InputError("doubly_defined", said.place, "the coordinate '" + said.name + "' is listed twice");
@@ -135,27 +166,11 @@ void read_constants(const Mapping& root, SceneDraft& draft) {
   });
 }
 
-void read_motors(const Mapping& root, SceneDraft& draft) {
-  const NodePtr node = root.at("motors");
+void read_independent(const Mapping& root, SceneDraft& draft) {
   draft.moving = draft.fixed;
   draft.moving.define_symbol("t", Symbols::kTime, kTime, {});
-  Scene& scene = draft.scene;
-  const auto add = [&](const std::string& name, bool linear, const Place& place) {
-    check_symbol_name(name, place);
-    draft.moving.define_symbol(name, Symbols(scene).psi0 + scene.n(), linear ? kLength : kPure, place);
-    scene.independent.push_back({name, linear});
-  };
-  if (node->kind != Node::Kind::mapping) {
-    for (const auto& item : items_within(node, 1, kMostMotors, "the motors' names"))
-      add(text_of(*item, "a motor's name"), false, item->place);
-    return;
-  }
-  if (node->entries.empty() || node->entries.size() > kMostMotors)
-    throw InputError(
-        "wrong_size", node->place,
-        fmt::format("found {} motors; expected from 1 to {}", node->entries.size(), kMostMotors));
-  for (const auto& entry : node->entries)
-    add(entry.key, word_of(*entry.value, {"rotary", "linear"}, "the motor's kind") == 1, entry.place);
+  add_independent(root.at("motors"), true, draft);
+  if (const NodePtr free = root.find("free")) add_independent(free, false, draft);
 }
 
 void read_constraints(const Mapping& root, SceneDraft& draft) {

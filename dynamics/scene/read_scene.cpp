@@ -70,8 +70,8 @@ void read_home(const Mapping& root, SceneDraft& draft) {
     else if (const NodePtr value = is_independent(coordinate.name) ? nullptr : entry.find(coordinate.name))
       throw InputError("guess_beside_formula", value->place,
                        "the coordinate '" + coordinate.name +
-                           "' follows from its formula and takes no guess; expected motors, and coordinates "
-                           "that are solved from closures");
+                           "' follows from its formula and takes no guess; expected motors, free "
+                           "coordinates, and those that are solved from closures");
   }
 }
 
@@ -97,13 +97,17 @@ const Keys& end_effector_keys() {
 
 const Keys& scene_keys() {
   using namespace form;
+  const auto of_kinds = [] { return named(word({"rotary", "linear"})); };
+  const auto name = [&] { return one_of({text(), of_kinds()}); };
+  const auto names = [&] { return one_of({list(name()), of_kinds()}); };
   static const Keys keys{
       "the scene",
       {{"name", text()},
        {"constants", named(number())},
        {"parameters", named(number())},
-       {"motors", one_of({list(text()), named(word({"rotary", "linear"}))}), kRequired},
-       {"coordinates", list(one_of({text(), named(word({"rotary", "linear"}))}))},
+       {"motors", names(), kRequired},
+       {"free", names()},
+       {"coordinates", list(name())},
        {"constraints", named(number())},
        {"closures", list(one_of({mapping(coincide_keys), mapping(distance_keys), mapping(parallel_keys),
                                  mapping(align_keys), mapping(zero_keys)}))},
@@ -126,7 +130,7 @@ Scene read_scene(const NodePtr& document) {
   read_name(root, draft.scene);
   read_parameters(root, draft);
   read_constants(root, draft);
-  read_motors(root, draft);
+  read_independent(root, draft);
   read_constraints(root, draft);
   read_transforms(root, draft);
   read_bodies(root, draft);

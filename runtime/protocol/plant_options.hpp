@@ -13,7 +13,8 @@ namespace mixloop {
 
 /// What a plant on the bus is told, in lockstep and in real time.
 struct PlantOptions {
-  int n = 0;                   ///< measured coordinates: what the plant's messages count
+  int n = 0;                   ///< measured coordinates: what the plant's messages count, but for TRUTH
+  int unmeasured = 0;          ///< independent coordinates beside them, which TRUTH counts too
   int n_u = 0;                 ///< motors: what COMMAND's n counts
   std::int64_t last_tick = 0;  ///< N: ticks 0 to N are run
   bool references = true;      ///< there is a planner: not without a path

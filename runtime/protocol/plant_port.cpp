@@ -39,7 +39,7 @@ PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& optio
       pacer_(options.rate_hz, options.speed, slack),
       conductor_(options.n, options_.session, options.paused, (state_flags & state_t::FLAG_REAL_TIME) != 0),
       state_(options.n),
-      truth_(options.n),
+      truth_(options.n + options.unmeasured),
       control_(options.n),
       timing_(bus, {.n = options.n}),
       inbox_(options.n_u),
@@ -50,7 +50,8 @@ PlantPort::PlantPort(Bus& bus, const StopSwitch& stop, const PlantOptions& optio
   report.session = options_.session;
   const Header header{.n = options_.n, .session = options_.session, .config = options_.config};
   set_header(state_.message, header);
-  set_header(truth_.message, header);
+  set_header(truth_.message,
+             {.n = options_.n + options_.unmeasured, .session = options_.session, .config = options_.config});
   set_header(control_.message, header);
   bus_.subscribe<&PlantPort::on_command>(command_channel_, this);
   bus_.subscribe<&PlantPort::on_control>(control_channel_, this);

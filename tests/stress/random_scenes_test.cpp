@@ -15,8 +15,7 @@ namespace {
 
 State random_state(const Scene& scene, double speed, std::mt19937_64& random) {
   State state{{}, uniform(random, scene.n(), speed), uniform(random, scene.n(), 5), uniform(random, 1, 1)[0]};
-  for (const auto& motor : scene.motors())
-    state.psi.push_back(uniform(random, 1, motor.linear ? 0.5 : 10)[0]);
+  for (const auto& psi : scene.independent) state.psi.push_back(uniform(random, 1, psi.linear ? 0.5 : 10)[0]);
   return state;
 }
 

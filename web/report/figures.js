@@ -112,7 +112,7 @@ function projections(runs) {
 
 /** The sections: [{ id, title, figures: [{ title, label, lines, over? }] }]. */
 export function sections(runs) {
-  const { motors, coordinates } = runs.reduce((a, b) => (b.names.coordinates.length > a.names.coordinates.length ? b : a)).names;
+  const { motors, free = [], coordinates } = runs.reduce((a, b) => (b.names.coordinates.length > a.names.coordinates.length ? b : a)).names;
   const one = (title, label, curves, extra = {}) => figures(runs, { title, label, ...extra }, [{ title: '', curves }]);
   const each = (title, label, curves, extra = {}) =>
     figures(runs, { title, label, ...extra }, curves.map((curve) => ({ title: curve.name, curves: [curve] })));
@@ -162,6 +162,12 @@ export function sections(runs) {
         ...ofCoordinates(runs, motors, 'Motor rates', ['Rate (rad/s)', 'Rate (m/s)'], (name, k, i) => [
           { curve: `psid_${k}`, name: `${name}′`, colour: i },
         ], 'psid'),
+        ...ofCoordinates(runs, free, 'Free coordinates', ['Angle (rad)', 'Displacement (m)'], (name, k, i) => [
+          { curve: `psi_${motors.length + k}`, name, colour: i },
+        ]),
+        ...ofCoordinates(runs, free, 'Rates of the free coordinates', ['Rate (rad/s)', 'Rate (m/s)'], (name, k, i) => [
+          { curve: `psid_${motors.length + k}`, name: `${name}′`, colour: i },
+        ]),
         ...ofCoordinates(runs, coordinates, 'Dependent coordinates', ['Angle (rad)', 'Displacement (m)'], (name, k, i) => [
           { curve: `q_${k}`, name, colour: i, dash: i > 2 ? 1 : 0 },
         ]),

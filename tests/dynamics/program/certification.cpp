@@ -14,6 +14,7 @@ class WideProcedure {
   WideProcedure(const std::shared_ptr<const Scene>& scene, std::span<const double> parameters,
                 const Sample& sample)
       : n_(scene->n()),
+        n_u_(scene->n_u()),
         model_(make_model<Wide>(scene, std::span<const Wide>(wide(parameters)))),
         workspace_(model_),
         psi_(wide(sample.psi)),
@@ -49,7 +50,7 @@ class WideProcedure {
         break;
       case Purpose::dynamics_and_mass_times:
         forward_dynamics(0);
-        mass_times(n_);
+        mass_times(n_u_);
         break;
     }
     return result_;
@@ -61,6 +62,13 @@ class WideProcedure {
   std::span<const Wide> psid() const { return psid_; }
   std::span<const Wide> input(int from) const {
     return std::span(input_).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(n_));
+  }
+
+  // The motors' part of the input, and nothing for the free coordinates.
+  WideVector of_motors(int from) {
+    WideVector x = map_of(input(from));
+    x.tail(n_ - n_u_).setZero();
+    return x;
   }
 
   WideMatrix M() { return mixloop::mass_matrix<Wide>(model_, psi(), t_, workspace_); }
@@ -99,8 +107,8 @@ class WideProcedure {
   }
 
   void mass_times(int from) {
-    const WideVector a = map_of(input(from));
-    put(WideVector(M() * a), M().norm() * a.norm());
+    const WideVector a = of_motors(from);
+    put(WideVector((M() * a).head(n_u_)), M().norm() * a.norm());
   }
 
   void inverse_dynamics() {
@@ -124,7 +132,7 @@ class WideProcedure {
   void forward_dynamics(int from) {
     const WideVector psidd =
         mixloop::forward_dynamics<Wide>(model_, psi(), psid(), input(from), t_, workspace_);
-    const WideVector tau = map_of(input(from));
+    const WideVector tau = of_motors(from);
     put(psidd, inverse_norm() * (M().norm() * psidd.norm() + tau.norm() + bias_scale()));
   }
 
@@ -184,7 +192,7 @@ class WideProcedure {
     const Wide scale = inverse_norm() * inverse_norm() * M().norm() *
                        (M().norm() * psidd_at(psi_, psid_, input_).norm() + bias_scale() + 1);
     for (auto* x : {&psi_, &psid_, &input_})
-      for (std::size_t j = 0; j < static_cast<std::size_t>(n_); ++j) {
+      for (std::size_t j = 0; j < static_cast<std::size_t>(x == &input_ ? n_u_ : n_); ++j) {
         const Wide at = (*x)[j];
         (*x)[j] = at + step;
         const WideVector above = psidd_at(psi_, psid_, input_);
@@ -195,7 +203,7 @@ class WideProcedure {
       }
   }
 
-  int n_;
+  int n_, n_u_;
   Model<Wide> model_;
   Workspace<Wide> workspace_;
   std::vector<Wide> psi_, psid_, input_;

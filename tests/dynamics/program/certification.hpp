@@ -27,7 +27,7 @@ inline Sample random_sample(const Scene& scene, std::mt19937_64& random, double 
   const auto fill = [&](std::vector<double>& x, int size, double scale) {
     for (int i = 0; i < size; ++i) x.push_back(scale * unit(random));
   };
-  for (const auto& motor : scene.motors()) sample.psi.push_back((motor.linear ? 0.5 : angle) * unit(random));
+  for (const auto& psi : scene.independent) sample.psi.push_back((psi.linear ? 0.5 : angle) * unit(random));
   fill(sample.psid, scene.n(), 3.0);
   fill(sample.input, 2 * scene.n(), 5.0);
   sample.t = unit(random);

@@ -15,6 +15,7 @@
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 #include "tests/oracles/random_mechanism.hpp"
+#include "tests/support/free_ones.hpp"
 
 namespace mixloop::testing {
 namespace {
@@ -77,6 +78,22 @@ TEST(Certification, RandomMechanismsAreAsExactAsTheProcedure) {
         std::make_shared<const Scene>(load_scene(parse_document(mechanism.scene_text(), "random")));
     certify(scene, fmt::format("random {}", seed), 2, seed);
   }
+}
+
+TEST(Certification, RandomMechanismsThatMoveFreelyAreAsExactAsTheProcedure) {
+  int freed = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const oracle::RandomMechanism mechanism(seed, {.nonlinear = seed % 2 == 0, .springs = seed % 3 == 0});
+    if (mechanism.n() < 2) continue;
+    const int motors = 1 + static_cast<int>(seed) % (mechanism.n() - 1);
+    const auto scene = std::make_shared<const Scene>(
+        load_scene(parse_document(with_free_ones(mechanism.scene_text(), motors), "random")));
+    ASSERT_EQ(scene->n_u(), motors);
+    ASSERT_EQ(scene->n(), mechanism.n());
+    certify(scene, fmt::format("free {}", seed), 2, seed);
+    ++freed;
+  }
+  EXPECT_GE(freed, 6);
 }
 
 // A tree whose coordinates are the motors', scaled and offset: articulated bodies trace it too.
