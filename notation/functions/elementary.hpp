@@ -28,8 +28,8 @@ MIXLOOP_INLINE double power_of_two(int k) {
   if (!(x < 710.0)) return x - x == 0 ? HUGE_VAL : x;
   if (x < -746.0) return 0.0;
   // x = k log 2 + r, |r| <= log(2) / 2.
-  constexpr double kRound = 0x1.8p+52;
-  const double k = fma(x, 0x1.71547652b82fep+0, kRound) - kRound;
+  constexpr double kToWhole = 0x1.8p+52;
+  const double k = fma(x, 0x1.71547652b82fep+0, kToWhole) - kToWhole;
   const double near = fnma(k, kLogTwo, x);
   const double r = fnma(k, kLogTwoRest, near), rest = (near - r) - k * kLogTwoRest;
   // Taylor's series; what comes behind r^13 / 13! is below 2^-57.
