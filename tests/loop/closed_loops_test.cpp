@@ -13,6 +13,7 @@
 #include "loop/review.hpp"
 #include "loop/simulate.hpp"
 #include "tests/oracles/closed_loops.hpp"
+#include "tests/support/simulated.hpp"
 
 namespace mixloop {
 namespace {
@@ -116,19 +117,6 @@ INSTANTIATE_TEST_SUITE_P(, ClosedLoops,
                          testing::Values("planar_3rrr", "delta_robot", "spatial_five_bar", "four_bar_chain"),
                          [](const auto& row) { return std::string(row.param); });
 
-Experiment experiment_named(const std::string& name) {
-  Experiment experiment = load_experiment(std::filesystem::path(MIXLOOP_EXPERIMENTS) / (name + ".yaml"), {});
-  experiment.evaluation = Evaluation::interpreter;
-  return experiment;
-}
-
-Measures simulated(const Experiment& experiment) {
-  const Plan plan = make_plan(experiment);
-  RecordedPlant run(experiment, plan);
-  simulate(run, [](std::int64_t) { return true; });
-  return run.recorder().measures();
-}
-
 /// Where the motors are after so many ticks of 1 ms, each with the torque of its beginning, by RK4 in w.
 Vec moved(const VirtualWork& work, Vec w, Vec psi, const Vec& psid, std::int64_t ticks, int substeps,
           const std::function<Vec(const Vec& psi, const Vec& psid)>& torque) {
@@ -158,7 +146,7 @@ void hold_end(const std::string& name, const std::string& scene, const Vec& psid
               const std::function<Vec(const Vec&, const Vec&)>& torque) {
   const ClosedLoop& loop = closed_loop(scene);
   const VirtualWork work(loop.placing, loop.gravity);
-  const Experiment experiment = experiment_named(name);
+  const Experiment experiment = shipped_experiment(name);
   const Measures measures = simulated(experiment);
   ASSERT_TRUE(measures.final_psi);
   EXPECT_TRUE(missed(experiment.expect, measures).empty()) << missed(experiment.expect, measures).front();
@@ -190,7 +178,7 @@ TEST(ClosedLoopExperiments, TheChainOfFourBarsEndsWhereVirtualWorkSays) {
 
 // The inverse kinematics goes through three closures; the arms' angles follow from circles.
 TEST(ClosedLoopExperiments, ThePlanOfTheDeltaRobotsCircleIsTheInverseKinematicsByVectors) {
-  const Experiment experiment = experiment_named("delta_circle");
+  const Experiment experiment = shipped_experiment("delta_circle");
   const Plan plan = make_plan(experiment);
   const ClosedLoop& loop = closed_loop("delta_robot");
   const VirtualWork work(loop.placing, loop.gravity);

@@ -10,6 +10,7 @@
 #include "loop/simulate.hpp"
 #include "tests/support/bad_input.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/simulated.hpp"
 
 namespace mixloop {
 namespace {
@@ -36,13 +37,6 @@ class FreeMotion : public testing::Test {
         load_experiment(parse_document("scene: link.yaml\n" + text, file), file, overrides);
     experiment.evaluation = Evaluation::interpreter;
     return experiment;
-  }
-
-  Measures simulated(const Experiment& experiment) const {
-    const Plan plan = make_plan(experiment);
-    RecordedPlant run(experiment, plan);
-    simulate(run, [](std::int64_t) { return true; });
-    return run.recorder().measures();
   }
 
   const ScratchFolder folder_;

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include "loop/simulate.hpp"
 #include "tests/support/bad_input.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/simulated.hpp"
 
 namespace mixloop {
 namespace {
@@ -53,13 +53,6 @@ class Measured : public testing::Test {
     Experiment experiment = load_experiment(parse_document("scene: carts.yaml\n" + text, file), file, {});
     experiment.evaluation = Evaluation::interpreter;
     return experiment;
-  }
-
-  Measures simulated(const Experiment& experiment) const {
-    const Plan plan = make_plan(experiment);
-    RecordedPlant run(experiment, plan);
-    simulate(run, [](std::int64_t) { return true; });
-    return run.recorder().measures();
   }
 
   const ScratchFolder folder_;

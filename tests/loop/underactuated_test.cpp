@@ -9,25 +9,12 @@
 #include "loop/review.hpp"
 #include "loop/simulate.hpp"
 #include "loop/truth.hpp"
+#include "tests/support/simulated.hpp"
 
 namespace mixloop {
 namespace {
 
 using State = std::array<long double, 4>;  // psi, psid
-
-Experiment shipped(const std::string& name) {
-  Experiment experiment =
-      load_experiment(std::filesystem::path(MIXLOOP_SOURCE "/experiments/" + name + ".yaml"), {});
-  experiment.evaluation = Evaluation::interpreter;
-  return experiment;
-}
-
-Measures simulated(const Experiment& experiment) {
-  const Plan plan = make_plan(experiment);
-  RecordedPlant run(experiment, plan);
-  simulate(run, [](std::int64_t) { return true; });
-  return run.recorder().measures();
-}
 
 /// A u + B v = p, B u + D v = q.
 std::array<long double, 2> solved(long double A, long double B, long double D, long double p, long double q) {
@@ -96,7 +83,7 @@ class HeldUpright : public testing::TestWithParam<std::pair<const char*, Acceler
 // 1e-11: what rounding makes of some thousand ticks of a loop that forgets.
 TEST_P(HeldUpright, EndsWhereTheTextbooksEquationsEnd) {
   const auto& [name, of] = GetParam();
-  const Experiment experiment = shipped(name);
+  const Experiment experiment = shipped_experiment(name);
   const Measures measures = simulated(experiment);
   ASSERT_TRUE(measures.final_psi);
   const State expected = held_upright(of, experiment, measures.ticks);
@@ -108,7 +95,7 @@ TEST_P(HeldUpright, EndsWhereTheTextbooksEquationsEnd) {
 // Without the law it falls: the motion is no small one, and the equations are whole.
 TEST_P(HeldUpright, FallsAsTheTextbooksEquationsDo) {
   const auto& [name, of] = GetParam();
-  Experiment experiment = shipped(name);
+  Experiment experiment = shipped_experiment(name);
   experiment.controller.gain.setZero();
   experiment.duration = 2;
   const Measures measures = simulated(experiment);
@@ -120,7 +107,7 @@ TEST_P(HeldUpright, FallsAsTheTextbooksEquationsDo) {
 }
 
 TEST_P(HeldUpright, IsStableAndWarnsOfNothing) {
-  const Experiment experiment = shipped(GetParam().first);
+  const Experiment experiment = shipped_experiment(GetParam().first);
   const Plan plan = make_plan(experiment);
   RecordedPlant run(experiment, plan);
   simulate(run, [](std::int64_t) { return true; });

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "tests/support/command.hpp"
+
 namespace mixloop::testing {
 namespace {
 
@@ -19,19 +21,13 @@ using ::testing::HasSubstr;
 class CacheTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "mixloop-test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
     ::setenv("MIXLOOP_CACHE", cache().c_str(), 1);
     std::string complaint;
     ASSERT_TRUE(cache_directory(complaint)) << complaint;
     std::ofstream(directory_ / "built") << "what was built";
     ASSERT_TRUE(kept().adopt(directory_ / "built"));
   }
-  void TearDown() override {
-    ::unsetenv("MIXLOOP_CACHE");
-    fs::remove_all(directory_);
-  }
+  void TearDown() override { ::unsetenv("MIXLOOP_CACHE"); }
 
   fs::path cache() const { return directory_ / "above" / "cache"; }
   CacheEntry kept() const { return CacheEntry(cache(), "key"); }
@@ -46,7 +42,8 @@ class CacheTest : public ::testing::Test {
     return bytes;
   }
 
-  fs::path directory_;
+  const ScratchFolder folder_;
+  const fs::path& directory_ = folder_.path();
 };
 
 TEST_F(CacheTest, GivesTheBytesThatItLookedAt) {

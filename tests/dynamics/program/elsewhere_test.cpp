@@ -7,13 +7,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
 
 #include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/program/compiler.hpp"
 #include "dynamics/program/firmware.hpp"
 #include "dynamics/program/trace.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/start_at_home.hpp"
 
 namespace mixloop {
 namespace {
@@ -27,18 +28,6 @@ std::string numbers(const std::vector<double>& values) {
   std::string text;
   for (double value : values) text += fmt::format("{:a}, ", value);
   return text.empty() ? "0" : text;
-}
-
-/// Where closures are solved from at home.
-std::vector<double> start_of(const Scene& scene) {
-  std::vector<double> start;
-  for (int j : scene.started) {
-    const double home = scene.coordinates[static_cast<std::size_t>(j)].home;
-    start.push_back(home);
-    if (scene.turns(j))
-      start.push_back(mixloop_functions::cos(home)), start.push_back(mixloop_functions::sin(home));
-  }
-  return start;
 }
 
 /// A program that prints a hash of all bits that the scene's programs give at seeded states about home. Of
@@ -64,7 +53,7 @@ int main() {
   (void)k;
 )";
   const int n = scene->n(), n_u = scene->n_u();
-  const std::vector<double> start = start_of(*scene);
+  const std::vector<double> start = start_at_home(*scene);
   text += fmt::format("  const double home[] = {{{}}}, start[] = {{{}}}, parameters[] = {{{}}};\n",
                       numbers(scene->home), numbers(start), numbers(scene->default_parameters()));
   for (Purpose purpose : kTried) {
@@ -90,34 +79,30 @@ class Elsewhere : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     scene_ = std::make_shared<const Scene>(load_scene(fs::path(MIXLOOP_SCENES) / (GetParam() + ".yaml")));
-    std::string pattern = (fs::temp_directory_path() / "mixloop-elsewhere-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
-    std::ofstream(directory_ / "hash.cpp") << hashing_program(scene_);
+    source_ = folder_.write("hash.cpp", hashing_program(scene_));
     std::ifstream file(MIXLOOP_SOURCE "/tests/golden/bits.txt");
     for (std::string line, name, hash; std::getline(file, line);)
       if (std::istringstream(line) >> name >> hash && name == GetParam()) golden_ = hash;
   }
-  void TearDown() override { fs::remove_all(directory_); }
 
   static bool has(const std::string& program) {
     return std::system((program + " --version > /dev/null 2>&1").c_str()) == 0;
   }
 
   std::string hash_by(const std::string& compiler, const std::string& flags, const std::string& runner = "") {
-    const fs::path program = directory_ / "hash", out = directory_ / "out";
-    const std::string build = fmt::format("{} -std=c++17 -ffp-contract=off {} {} -o {}", compiler, flags,
-                                          (directory_ / "hash.cpp").string(), program.string());
+    const std::string program = folder_.file("hash"), out = folder_.file("out");
+    const std::string build =
+        fmt::format("{} -std=c++17 -ffp-contract=off {} {} -o {}", compiler, flags, source_, program);
     if (std::system(build.c_str()) != 0) return "not built";
-    if (std::system(fmt::format("{} {} > {}", runner, program.string(), out.string()).c_str()) != 0)
-      return "not run";
+    if (std::system(fmt::format("{} {} > {}", runner, program, out).c_str()) != 0) return "not run";
     std::string hash;
     std::ifstream(out) >> hash;
     return hash;
   }
 
   std::shared_ptr<const Scene> scene_;
-  fs::path directory_;
+  const ScratchFolder folder_;
+  std::string source_;
   std::string golden_ = "none in tests/golden/bits.txt";
 };
 

@@ -18,6 +18,7 @@
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/command.hpp"
 
 namespace mixloop::testing {
 namespace {
@@ -32,16 +33,10 @@ std::shared_ptr<const Scene> scene_named(const std::string& name) {
 class MachineCodeTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "mixloop-test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
     ::setenv("MIXLOOP_CACHE", (directory_ / "cache").c_str(), 1);
     ::unsetenv("MIXLOOP_CXX");
   }
-  void TearDown() override {
-    ::unsetenv("MIXLOOP_CXX");
-    fs::remove_all(directory_);
-  }
+  void TearDown() override { ::unsetenv("MIXLOOP_CXX"); }
 
   fs::path cache() const { return directory_ / "cache"; }
   std::vector<fs::path> entries() const {
@@ -62,7 +57,8 @@ class MachineCodeTest : public ::testing::Test {
     return code;
   }
 
-  fs::path directory_;
+  const ScratchFolder folder_;
+  const fs::path& directory_ = folder_.path();
   std::shared_ptr<const Scene> robot_ = scene_named("mixed_loop_robot");
 };
 

@@ -14,6 +14,7 @@
 #include "dynamics/program/shared_object.hpp"
 #include "dynamics/program/trace.hpp"
 #include "dynamics/symbolic/expression.hpp"
+#include "tests/support/start_at_home.hpp"
 
 namespace mixloop {
 namespace {
@@ -59,17 +60,6 @@ class ShippedClosures : public testing::TestWithParam<Shipped> {
     return poses;
   }
 
-  /// The numbers of a start: home's.
-  std::vector<double> start() const {
-    std::vector<double> numbers;
-    for (int j : scene->started) {
-      const double home = scene->coordinates[static_cast<std::size_t>(j)].home;
-      numbers.push_back(home);
-      if (scene->turns(j)) numbers.push_back(std::cos(home)), numbers.push_back(std::sin(home));
-    }
-    return numbers;
-  }
-
   /// A pose with the start behind what the purpose takes.
   WalkedPose started(Purpose purpose, WalkedPose pose, const std::vector<double>& from) const {
     pose.input.resize(static_cast<std::size_t>(signature(purpose).input_size(scene->n(), scene->n_u())));
@@ -109,7 +99,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsInLanes) {
     evaluator.set_up(parameters);
     const auto width = static_cast<std::size_t>(lanes->width());
     std::vector<WalkedPose> poses = walk(static_cast<int>(width));
-    for (auto& pose : poses) pose = started(purpose, pose, start());
+    for (auto& pose : poses) pose = started(purpose, pose, start_at_home(*scene));
     const auto abreast = [&](std::vector<double> WalkedPose::*part) {
       std::vector<double> numbers;
       for (std::size_t i = 0; i < (poses[0].*part).size(); ++i)
@@ -160,7 +150,7 @@ TEST_P(ShippedClosures, HaveTheSameBitsAsEmittedSource) {
     const Interpreter interpreter(program);
     Evaluator evaluator(interpreter);
     evaluator.set_up(parameters);
-    std::vector<double> from = start(), one(program.outputs.size()), other(one),
+    std::vector<double> from = start_at_home(*scene), one(program.outputs.size()), other(one),
                         psidd(static_cast<std::size_t>(scene->n()));
     for (WalkedPose pose : walk(100)) {
       if (solve) {

@@ -5,12 +5,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/program/firmware.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
+#include "tests/support/command.hpp"
 
 namespace mixloop {
 namespace {
@@ -19,15 +19,11 @@ namespace fs = std::filesystem;
 
 // A user's compiler, with all warnings as errors.
 bool builds(const std::string& source, const std::string& compiler, const std::string& flags) {
-  std::string pattern = (fs::temp_directory_path() / "mixloop-source-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) return false;
-  const fs::path directory = pattern, file = directory / "emitted.cpp";
-  std::ofstream(file) << source;
-  const std::string command = compiler + " -Wall -Wextra -Wpedantic -Werror " + flags + " -c " +
-                              file.string() + " -o " + (directory / "emitted.o").string();
-  const bool good = std::system(command.c_str()) == 0;
-  fs::remove_all(directory);
-  return good;
+  const ScratchFolder folder;
+  const std::string file = folder.write("emitted.cpp", source);
+  const std::string command = compiler + " -Wall -Wextra -Wpedantic -Werror " + flags + " -c " + file +
+                              " -o " + folder.file("emitted.o");
+  return std::system(command.c_str()) == 0;
 }
 
 TEST(Source, BuildsWithoutAWarningAsCxx17) {
