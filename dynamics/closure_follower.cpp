@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/closure_follower.hpp"
-#include "notation/functions/sincos.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "notation/functions/sincos.hpp"
 
 namespace mixloop {
 namespace {

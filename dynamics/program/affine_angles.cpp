@@ -2,46 +2,12 @@
 #include "dynamics/program/affine_angles.hpp"
 
 #include <algorithm>
-#include <map>
-
-#include "dynamics/symbolic/double_double.hpp"
 
 namespace mixloop {
 namespace {
 
 constexpr std::size_t kMostTerms = 4;
-constexpr int kDeepest = 32;
-
-struct Sum {
-  DoubleDouble constant;
-  std::map<NodeId, DoubleDouble> terms;
-
-  void add(const Sum& other, const DoubleDouble& factor) {
-    constant += factor * other.constant;
-    for (const auto& [index, x] : other.terms) terms[index] += factor * x;
-  }
-};
-
-std::optional<Sum> sum_at(const Program& program, NodeId id, int deep = 0) {
-  const ExpressionNode& n = program.nodes[id];
-  if (n.op == Op::constant) return Sum{n.value, {}};
-  if (n.op == Op::input && static_cast<Block>(n.a) == Block::psi) return Sum{0, {{n.b, 1}}};
-  if (deep == kDeepest || (n.op != Op::neg && n.op != Op::add && n.op != Op::sub && n.op != Op::mul))
-    return std::nullopt;
-  auto a = sum_at(program, n.a, deep + 1);
-  auto b = n.op == Op::neg ? Sum{} : sum_at(program, n.b, deep + 1);
-  if (!a || !b || a->terms.size() + b->terms.size() > 2 * kMostTerms) return std::nullopt;
-  Sum sum;
-  if (n.op == Op::mul) {
-    if (!a->terms.empty()) std::swap(a, b);
-    if (!a->terms.empty()) return std::nullopt;
-    sum.add(*b, a->constant);
-  } else {
-    sum.add(*a, n.op == Op::neg ? -1 : 1);
-    sum.add(*b, n.op == Op::sub ? -1 : 1);
-  }
-  return sum;
-}
+constexpr int kDeepest = 32;  // operations, one in another
 
 bool is_plain(const AffineAngle& angle) {
   return angle.constant == 0 && angle.terms.size() == 1 && angle.terms[0].second == 1;
@@ -49,11 +15,47 @@ bool is_plain(const AffineAngle& angle) {
 
 }  // namespace
 
-std::optional<AffineAngle> affine_angle(const Program& program, NodeId angle) {
-  const auto sum = sum_at(program, angle);
-  if (!sum) return std::nullopt;
-  AffineAngle result{static_cast<double>(sum->constant), {}};
-  for (const auto& [index, factor] : sum->terms)
+void AffineAngles::Sum::add(const Sum& other, const DoubleDouble& factor) {
+  constant += factor * other.constant;
+  for (const auto& [index, x] : other.terms) terms[index] += factor * x;
+  height = std::max(height, other.height);
+}
+
+AffineAngles::AffineAngles(const Program& program) {
+  for (NodeId id = 0; id < program.nodes.size(); ++id)
+    if (auto sum = sum_of(program.nodes[id])) sums_.emplace(id, std::move(*sum));
+}
+
+// Of nodes that are known already.
+std::optional<AffineAngles::Sum> AffineAngles::sum_of(const ExpressionNode& n) const {
+  if (n.op == Op::constant) return Sum{n.value, {}};
+  if (n.op == Op::input && static_cast<Block>(n.a) == Block::psi) return Sum{0, {{n.b, 1}}};
+  if (n.op != Op::neg && n.op != Op::add && n.op != Op::sub && n.op != Op::mul) return std::nullopt;
+  for (NodeId x : Operands(n))
+    if (!sums_.contains(x)) return std::nullopt;
+  static const Sum none;
+  const Sum *a = &sums_.at(n.a), *b = n.op == Op::neg ? &none : &sums_.at(n.b);
+  if (std::max(a->height, b->height) == kDeepest || a->terms.size() + b->terms.size() > 2 * kMostTerms)
+    return std::nullopt;
+  Sum sum;
+  if (n.op == Op::mul) {
+    if (!a->terms.empty()) std::swap(a, b);
+    if (!a->terms.empty()) return std::nullopt;
+    sum.add(*b, a->constant);
+    sum.height = std::max(sum.height, a->height);
+  } else {
+    sum.add(*a, n.op == Op::neg ? -1 : 1);
+    sum.add(*b, n.op == Op::sub ? -1 : 1);
+  }
+  ++sum.height;
+  return sum;
+}
+
+std::optional<AffineAngle> AffineAngles::at(NodeId angle) const {
+  const auto sum = sums_.find(angle);
+  if (sum == sums_.end()) return std::nullopt;
+  AffineAngle result{static_cast<double>(sum->second.constant), {}};
+  for (const auto& [index, factor] : sum->second.terms)
     if (factor != 0) result.terms.emplace_back(index, static_cast<double>(factor));
   if (result.terms.empty() || result.terms.size() > kMostTerms || is_plain(result)) return std::nullopt;
   return result;

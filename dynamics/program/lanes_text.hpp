@@ -78,10 +78,11 @@ MIXLOOP_INLINE void sincos_of(const mixloop_lanes::Lanes8 (&x)[kCount], mixloop_
   mixloop_lanes::sincos_of<8, kCount>(x, sine, cosine);
 }
 
+/// Of 4 or 8 lanes.
 template <class Lanes, int kTerms, int kCount>
-MIXLOOP_INLINE void sincos_of_affine_lanes(const Lanes (&q)[kTerms], const double (&factor)[kTerms][kCount],
-                                           const double (&constant)[kCount], Lanes (&sine)[kCount],
-                                           Lanes (&cosine)[kCount]) {
+MIXLOOP_INLINE void sincos_of_affine(const Lanes (&q)[kTerms], const double (&factor)[kTerms][kCount],
+                                     const double (&constant)[kCount], Lanes (&sine)[kCount],
+                                     Lanes (&cosine)[kCount]) {
   Lanes x[kCount];
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
@@ -91,20 +92,6 @@ MIXLOOP_INLINE void sincos_of_affine_lanes(const Lanes (&q)[kTerms], const doubl
       if (factor[k][i] != 0) x[i] = fma(q[k], lift<Lanes>(factor[k][i]), x[i]);
   }
   sincos_of(x, sine, cosine);
-}
-template <int kTerms, int kCount>
-MIXLOOP_INLINE void sincos_of_affine(const mixloop_lanes::Lanes4 (&q)[kTerms],
-                                     const double (&factor)[kTerms][kCount], const double (&constant)[kCount],
-                                     mixloop_lanes::Lanes4 (&sine)[kCount],
-                                     mixloop_lanes::Lanes4 (&cosine)[kCount]) {
-  sincos_of_affine_lanes(q, factor, constant, sine, cosine);
-}
-template <int kTerms, int kCount>
-MIXLOOP_INLINE void sincos_of_affine(const mixloop_lanes::Lanes8 (&q)[kTerms],
-                                     const double (&factor)[kTerms][kCount], const double (&constant)[kCount],
-                                     mixloop_lanes::Lanes8 (&sine)[kCount],
-                                     mixloop_lanes::Lanes8 (&cosine)[kCount]) {
-  sincos_of_affine_lanes(q, factor, constant, sine, cosine);
 }
 
 #if defined(__x86_64__) && defined(__AVX512F__) && !defined(__clang__)

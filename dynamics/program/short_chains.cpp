@@ -89,7 +89,7 @@ class Rebuilder {
     std::size_t i = 0;
     for (NodeId x : Operands(n)) now[i++] = values_[x].is.node(), last = std::max(last, values_[x].known);
     if (n.op == Op::sin || n.op == Op::cos) {
-      if (const auto angle = affine_angle(program_, n.a)) now[0] = written(*angle);
+      if (const auto angle = affine_.at(n.a)) now[0] = written(*angle);
       last = std::max(last, kAnglesKnown);  // they come together
     }
     return {Expression::of(recording_graph().operation(n.op, now[0], now[1], now[2])), known(id, last, n.op),
@@ -199,6 +199,7 @@ class Rebuilder {
   }
 
   const Program& program_;
+  const AffineAngles affine_{program_};
   std::vector<int> uses_, divides_;
   std::vector<bool> inner_;
   std::vector<Value> values_;

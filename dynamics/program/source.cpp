@@ -239,7 +239,7 @@ class Writer {
     for (const AffineAngle& angle : angles) offsets.push_back(angle.constant);
     line(
         "  const {0} q{1}[] = {{{2}}};\n  constexpr double f{1}[{3}][{4}] = {{{5}}}, o{1}[] = {{{6}}};\n"
-        "  mixloop_functions::sincos_of_affine<{3}, {4}>(q{1}, f{1}, o{1}, s{1}, c{1});",
+        "  mixloop_functions::sincos_of_affine(q{1}, f{1}, o{1}, s{1}, c{1});",
         type, first, coordinates, rows.size(), angles.size(), factors, row_of(offsets));
   }
 

@@ -19,20 +19,17 @@ Statements::Statements(const Program& program) : program_(program), pairs_(progr
 
 std::vector<Statement> Statements::of(Stage stage) const {
   std::vector<Statement> steps;
-  std::vector<bool> taken(program_.nodes.size(), false);
+  const std::vector<Statement> batches = angle_batches(stage);
+  std::vector<bool> taken = inside_angles(batches);
   const auto take = [&](NodeId id) {
     if (taken[id] || is_leaf(program_.nodes[id].op) || program_.stages[id] != stage) return;
     taken[id] = true;
     if (!is_trigonometric(program_.nodes[id].op)) steps.push_back({id, {}});  // those with their batch
   };
-  const auto batches = angle_batches(stage);
-  const std::vector<bool> inside = inside_angles(batches);
-  for (NodeId id = 0; id < inside.size(); ++id)
-    if (inside[id]) taken[id] = true;
-  for (const std::vector<NodeId>& batch : batches) {
-    for (NodeId angle : batch)
+  for (const Statement& batch : batches) {
+    for (NodeId angle : batch.batch)
       for (NodeId id : with_operands(angle, stage, taken)) take(id);
-    steps.push_back({0, batch, written_together(batch)});
+    steps.push_back(batch);
   }
   for (NodeId id = 0; id < program_.nodes.size(); ++id) take(id);
   return steps;
@@ -62,16 +59,16 @@ std::vector<AffineAngle> Statements::written_together(const std::vector<NodeId>&
 }
 
 // What nothing but angles of such batches takes: it is part of them.
-std::vector<bool> Statements::inside_angles(const std::vector<std::vector<NodeId>>& batches) const {
+std::vector<bool> Statements::inside_angles(const std::vector<Statement>& batches) const {
   std::vector<int> uses(program_.nodes.size(), 0);
   for (NodeId output : program_.outputs) ++uses[output];
   for (const ExpressionNode& n : program_.nodes)
     if (!is_trigonometric(n.op))
       for (NodeId x : Operands(n)) ++uses[x];
   std::vector<bool> inside(program_.nodes.size(), false);
-  for (const auto& batch : batches) {
-    if (written_together(batch).empty()) continue;
-    for (NodeId id : batch)
+  for (const Statement& batch : batches) {
+    if (batch.angles.empty()) continue;
+    for (NodeId id : batch.batch)
       for (; program_.nodes[id].op == Op::fma && uses[id] == 0; id = program_.nodes[id].c) {
         inside[id] = true;
         --uses[program_.nodes[id].c];
@@ -81,7 +78,7 @@ std::vector<bool> Statements::inside_angles(const std::vector<std::vector<NodeId
 }
 
 // Angles whose sines and cosines can be had together: none of a batch's angles needs another's sine.
-std::vector<std::vector<NodeId>> Statements::angle_batches(Stage stage) const {
+std::vector<Statement> Statements::angle_batches(Stage stage) const {
   constexpr std::size_t kTogether = 4;
   std::vector<int> depth(program_.nodes.size(), 0);
   std::vector<std::vector<NodeId>> levels;
@@ -95,12 +92,14 @@ std::vector<std::vector<NodeId>> Statements::angle_batches(Stage stage) const {
     auto& level = levels[static_cast<std::size_t>(depth[id]) - 1];
     if (std::find(level.begin(), level.end(), n.a) == level.end()) level.push_back(n.a);
   }
-  std::vector<std::vector<NodeId>> batches;
+  std::vector<Statement> batches;
   for (const auto& level : levels)
-    for (std::size_t from = 0; from < level.size(); from += kTogether)
-      batches.emplace_back(
+    for (std::size_t from = 0; from < level.size(); from += kTogether) {
+      const std::vector<NodeId> batch(
           level.begin() + static_cast<std::ptrdiff_t>(from),
           level.begin() + static_cast<std::ptrdiff_t>(std::min(level.size(), from + kTogether)));
+      batches.push_back({0, batch, written_together(batch)});
+    }
   return batches;
 }
 

@@ -28,9 +28,9 @@ class Statements {
   const std::vector<NodeId>& pair_of(NodeId angle) const { return pairs_[angle]; }
 
  private:
-  std::vector<std::vector<NodeId>> angle_batches(Program::Stage stage) const;
+  std::vector<Statement> angle_batches(Program::Stage stage) const;
   std::vector<AffineAngle> written_together(const std::vector<NodeId>& batch) const;
-  std::vector<bool> inside_angles(const std::vector<std::vector<NodeId>>& batches) const;
+  std::vector<bool> inside_angles(const std::vector<Statement>& batches) const;
   std::vector<NodeId> with_operands(NodeId root, Program::Stage stage, const std::vector<bool>& taken) const;
 
   const Program& program_;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/scene/continuous_angles.hpp"
-#include "notation/functions/sincos.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "notation/functions/sincos.hpp"
 
 namespace mixloop {
 namespace {
