@@ -28,8 +28,7 @@ ClosureFollower::ClosureFollower(std::shared_ptr<const Scene> scene, const Routi
   for (const auto& block : scene_->blocks)
     for (int j : block.unknowns) sizes_.rows += scene_->turns(j);
   for (const auto& block : scene_->blocks)
-    for (int j : block.unknowns)
-      if (block.by_newton) scales_.push_back(scene_->turns(j) ? 1 : 1 / scene_->size);
+    for (int j : block.corrected()) scales_.push_back(scene_->turns(j) ? 1 : 1 / scene_->size);
   for (const auto& psi : scene_->independent) lengths_.push_back(psi.linear ? 1 / scene_->size : 1);
   anchor_.resize(sizes_.start + sizes_.started * (sizes_.n + 1) + sizes_.n + 1);
   watched_.resize(sizes_.started * (sizes_.n + 1) + sizes_.rows + sizes_.blocks);

@@ -34,6 +34,7 @@ std::string words_for(BlockSolution how) {
       return "in closed form, as two links between two known points";
     case BlockSolution::distances:
       return "in closed form, as a point at three distances";
+    case BlockSolution::torn:
     case BlockSolution::newton:
       break;
   }

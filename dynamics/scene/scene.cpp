@@ -42,8 +42,7 @@ int Scene::start_size() const {
 
 int Scene::corrections() const {
   std::size_t number = 0;
-  for (const auto& block : blocks)
-    if (block.by_newton) number += block.unknowns.size();
+  for (const auto& block : blocks) number += block.corrected().size();
   return static_cast<int>(number);
 }
 

@@ -18,10 +18,11 @@ enum class BlockSolution : std::uint8_t {
   single,     ///< one coordinate by one row: by a square root at most
   dyad,       ///< two links between known points or lines: by a square root
   distances,  ///< a point at three distances: by a square root
+  torn,       ///< corrections of what is cut from a start, the rest in closed form
   newton,     ///< corrections from a start
 };
 constexpr std::string_view name_of(BlockSolution how) {
-  constexpr std::string_view kNames[] = {"closed form", "dyad", "three distances", "Newton"};
+  constexpr std::string_view kNames[] = {"closed form", "dyad", "three distances", "torn", "Newton"};
   return kNames[static_cast<std::size_t>(how)];
 }
 
@@ -30,7 +31,8 @@ constexpr std::string_view name_of(BlockSolution how) {
 /// solved angle is taken.
 class ClosedChains {
  public:
-  static constexpr int kCorrections = 2;  ///< by Newton's method, in one evaluation
+  static constexpr int kCorrections = 2;       ///< by Newton's method, in one evaluation
+  static constexpr int kCorrectionsOfCut = 3;  ///< the same where a block is torn
 
   explicit ClosedChains(TracedInputs in) : in_(std::move(in)) {}
 
@@ -88,6 +90,8 @@ class ClosedCoordinates {
   std::vector<Expression> solution() const { return chains_.solution(*model_.scene, ws_); }
   const std::vector<Expression>& corrections() const { return chains_.corrections(); }
   const std::vector<BlockSolution>& solutions() const { return chains_.solutions(); }
+  /// As cut_of.
+  std::vector<int> cut(int block);
 
  private:
   TracedInputs in_;
