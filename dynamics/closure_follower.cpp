@@ -13,6 +13,7 @@ namespace {
 constexpr double kClosed = 1e-9;  // of a correction, whose square is left: round-off
 constexpr int kMostRepeats = 8;
 constexpr double kNear = 0.02;      // rad, or of the size: what the anchor's rates foretell
+constexpr double kNearOfTorn = 1.0 / 32;
 constexpr double kFarthest = 0.25;  // in one step
 
 }  // namespace
@@ -29,6 +30,10 @@ ClosureFollower::ClosureFollower(std::shared_ptr<const Scene> scene, const Routi
     for (int j : block.unknowns) sizes_.rows += scene_->turns(j);
   for (const auto& block : scene_->blocks)
     for (int j : block.corrected()) scales_.push_back(scene_->turns(j) ? 1 : 1 / scene_->size);
+  // A correction more finds what was foretold from farther.
+  near_ = std::ranges::all_of(scene_->blocks, [](const auto& block) { return !block.by_newton || !block.cut.empty(); }) && sizes_.corrections > 0
+              ? kNearOfTorn
+              : kNear;
   for (const auto& psi : scene_->independent) lengths_.push_back(psi.linear ? 1 / scene_->size : 1);
   anchor_.resize(sizes_.start + sizes_.started * (sizes_.n + 1) + sizes_.n + 1);
   watched_.resize(sizes_.started * (sizes_.n + 1) + sizes_.rows + sizes_.blocks);
@@ -217,7 +222,7 @@ Status ClosureFollower::evaluate(Evaluator& evaluator, const Arguments& at, std:
     std::fill(outputs.begin(), outputs.end(), std::numeric_limits<double>::quiet_NaN());
     return status;
   };
-  if (follows && !(way_to(at.psi, at.t) <= kNear))
+  if (follows && !(way_to(at.psi, at.t) <= near_))
     if (const Status status = accept(at.psi, at.t); status != Status::ok) return failed(status);
   std::copy_n(at.input.begin(), takes, input_.begin());
   predict(at.psi, at.t, takes);

@@ -100,6 +100,7 @@ class ClosureFollower {
   std::vector<double> watched_;  ///< what closures_ gave last
   std::vector<double> input_, output_, psi_;
   double moved_ = 0;
+  double near_ = 0;  ///< as far as the anchor's rates foretell
 };
 
 }  // namespace mixloop

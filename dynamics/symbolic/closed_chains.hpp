@@ -87,6 +87,8 @@ class ClosedCoordinates {
   std::vector<Expression> stretches() const { return chains_.stretches(); }
   /// Of a block's rows by its unknowns.
   ExpressionMatrix slopes(const Scene::Block& block);
+  /// What a block is solved with there.
+  const SmallSystem<Expression>& system(std::size_t block) const { return ws_.systems[block]; }
   std::vector<Expression> solution() const { return chains_.solution(*model_.scene, ws_); }
   const std::vector<Expression>& corrections() const { return chains_.corrections(); }
   const std::vector<BlockSolution>& solutions() const { return chains_.solutions(); }

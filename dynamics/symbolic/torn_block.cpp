@@ -152,13 +152,16 @@ class Torn {
 
   SolvedBlock solved() {
     std::vector<Iterate> at;
-    for (int j : block_.cut) at.push_back(iterate_from_start(scene_, j));
+    for (int j : block_.cut) at.push_back(iterate_on_the_circle(scene_, j, tag(0)));
     SolvedBlock solved;
+    constexpr Turning kTurning[] = {Turning::exact, Turning::small, Turning::least};
+    static_assert(std::size(kTurning) == ClosedChains::kCorrectionsOfCut);
     for (int k = 0; k < ClosedChains::kCorrectionsOfCut; ++k) {
       const ExpressionVector by = correction(at);
       solved.corrections.assign(by.begin(), by.end());
       for (std::size_t i = 0; i < at.size(); ++i)
-        at[i] = corrected(at[i], by[static_cast<Eigen::Index>(i)], scene_.turns(block_.cut[i]), tag(k));
+        at[i] = corrected(at[i], by[static_cast<Eigen::Index>(i)], scene_.turns(block_.cut[i]), tag(1 + k),
+                          kTurning[k]);
     }
     put(at, -1);
     for (std::size_t i = 0; i < at.size(); ++i) add_to(solved, scene_, block_.cut[i], at[i]);
@@ -239,7 +242,7 @@ class Torn {
     const E known = angle_of(link.turned, link.unknown).v;
     const E sense(link.turned.at(link.unknown));
     solved.angles.push_back(held_angle(link.turned, direction, known + start_of(scene_, link.unknown).value * sense,
-                                       tag(ClosedChains::kCorrectionsOfCut)));
+                                       tag(1 + ClosedChains::kCorrectionsOfCut)));
     return (solved.angles.back().angle - known) * sense;
   }
 
