@@ -46,6 +46,11 @@ int Scene::corrections() const {
   return static_cast<int>(number);
 }
 
+int Scene::started_rates() const {
+  const bool torn = std::ranges::any_of(blocks, [](const Block& block) { return !block.cut.empty(); });
+  return torn ? static_cast<int>(started.size()) * (n() + 1) : 0;
+}
+
 std::vector<double> Scene::default_parameters() const {
   std::vector<double> values;
   for (const auto& parameter : parameters) values.push_back(parameter.value);

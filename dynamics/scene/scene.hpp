@@ -208,6 +208,9 @@ struct Scene {
   int start_size() const;
   /// How many coordinates are solved by corrections from a start.
   int corrections() const;
+  /// Of a scene with a torn block, how many numbers say how the started coordinates move: of each its
+  /// derivatives by psi and t.
+  int started_rates() const;
   bool turns(int coordinate) const;             ///< whether it is an angle
   bool is_length(const ClosureRow& row) const;  ///< or an angle
   /// Whether anything but inertia, gravity and the motors acts.

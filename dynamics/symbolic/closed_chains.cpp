@@ -68,10 +68,17 @@ std::vector<E> ClosedChains::solution(const Scene& scene, const Workspace<E>& ws
   return numbers;
 }
 
-std::vector<E> ClosedChains::solved_from_start(const Scene& scene, const Workspace<E>& ws) const {
+std::vector<E> ClosedChains::solved_from_start(const Model<E>& model, Workspace<E> ws) const {
   if (corrections_.empty()) return {};
-  std::vector<E> solved = solution(scene, ws);
+  std::vector<E> solved = solution(*model.scene, ws);
   solved.insert(solved.end(), corrections_.begin(), corrections_.end());
+  if (model.scene->started_rates() == 0) return solved;
+  AlongOnGraph along(model, span_of(in_.psi), nullptr, in_.t, E(1.0), ws);
+  along.work_out(false);
+  for (int j : model.scene->started) {
+    for (int i = 0; i < model.n(); ++i) solved.push_back(ws.C(j, i));
+    solved.push_back(along.along(j).d);
+  }
   return solved;
 }
 

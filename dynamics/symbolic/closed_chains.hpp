@@ -42,7 +42,7 @@ class ClosedChains {
   /// As Tracer::cuts, from the coordinates' C.
   std::vector<Cut> cuts(const Workspace<Expression>& ws) const;
   /// As Tracer::solved_from_start; nothing where no block is solved so.
-  std::vector<Expression> solved_from_start(const Scene& scene, const Workspace<Expression>& ws) const;
+  std::vector<Expression> solved_from_start(const Model<Expression>& model, Workspace<Expression> ws) const;
   /// The solution as start_size() numbers: a start for what comes next.
   std::vector<Expression> solution(const Scene& scene, const Workspace<Expression>& ws) const;
   const std::vector<Expression>& corrections() const { return corrections_; }
