@@ -39,7 +39,8 @@ void find_starts(Scene& scene) {
     ClosedCoordinates closed(all);
     for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
       scene.blocks[b].by_newton = closed.solutions()[b] == BlockSolution::newton;
-      if (scene.blocks[b].by_newton && !scene.from_starts) scene.blocks[b].cut = closed.cut(static_cast<int>(b));
+      if (scene.blocks[b].by_newton && !scene.from_starts)
+        scene.blocks[b].cut = closed.cut(static_cast<int>(b));
     }
   }
   all->blocks = scene.blocks;

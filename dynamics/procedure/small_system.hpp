@@ -79,8 +79,8 @@ class SmallSystem {
     inverse_ = cofactors * T(T(1) / determinant);
   }
 
-  // Rows a x + A_1 y = b_1, b x + A_2 y = b_2 of an unknown x that stands in no other: turned, b A_1 - a A_2 is a
-  // row of the others', y, alone; and x = (a (b_1 - A_1 y) + b (b_2 - A_2 y)) / (a^2 + b^2).
+  // Rows a x + A_1 y = b_1, b x + A_2 y = b_2 of an unknown x that stands in no other: turned, b A_1 - a A_2
+  // is a row of the others', y, alone; and x = (a (b_1 - A_1 y) + b (b_2 - A_2 y)) / (a^2 + b^2).
   void invert_beside(const Mat<T>& A, std::span<const Alone> alone) {
     const Eigen::Index k = A.rows(), others = k - static_cast<Eigen::Index>(alone.size());
     std::vector<bool> row_taken(static_cast<std::size_t>(k)), taken = row_taken;
@@ -107,7 +107,8 @@ class SmallSystem {
     invert(rest);
     const Mat<T> of_others = inverse_.lazyProduct(turned);
     inverse_ = Mat<T>(k, k);
-    for (Eigen::Index j = 0; j < others; ++j) inverse_.row(kept[static_cast<std::size_t>(j)]) = of_others.row(j);
+    for (Eigen::Index j = 0; j < others; ++j)
+      inverse_.row(kept[static_cast<std::size_t>(j)]) = of_others.row(j);
     for (const Alone& x : alone) {
       const T scale = T(1) / x.squared, a = A(x.first, x.unknown) * scale, b = A(x.second, x.unknown) * scale;
       for (Eigen::Index c = 0; c < k; ++c) {

@@ -230,7 +230,8 @@ Program trace_closures(const std::shared_ptr<const Scene>& scene) try {
   for (const Expression& row : closed.rows()) numbers.push_back(row);
   for (const Expression& pair : closed.stretches()) numbers.push_back(pair);
   for (std::size_t b = 0; b < scene->blocks.size(); ++b)
-    numbers.push_back(condition_of(*scene, scene->blocks[b], closed.slopes(scene->blocks[b]), closed.system(b)));
+    numbers.push_back(
+        condition_of(*scene, scene->blocks[b], closed.slopes(scene->blocks[b]), closed.system(b)));
   for (const Expression& number : closed.solution()) numbers.push_back(number);
   for (const Expression& number : closed.corrections()) numbers.push_back(number);
   Nodes outputs;

@@ -16,9 +16,9 @@ Iterate iterate_from_start(const Scene& scene, int coordinate);
 /// The same on the unit circle, however far off it was.
 Iterate iterate_on_the_circle(const Scene& scene, int coordinate, unsigned tag);
 
-/// How an angle's cosine and sine are turned by a correction. In a chain of corrections, each the square of the
-/// one before, the later need less: what they are off the unit circle is below round-off where the last is
-/// below 1e-9, and elsewhere what follows starts on the circle again.
+/// How an angle's cosine and sine are turned by a correction. In a chain of corrections, each the square of
+/// the one before, the later need less: what they are off the unit circle is below round-off where the last
+/// is below 1e-9, and elsewhere what follows starts on the circle again.
 enum class Turning {
   brought_back,  ///< by 2 atan(by/2), and what rounding leaves of the length is brought back to 1
   exact,         ///< by 2 atan(by/2)

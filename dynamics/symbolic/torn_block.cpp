@@ -4,8 +4,8 @@
 //
 // Of a loop P + u e^ia = 0, where nothing else in the block depends on the angle a, whatever the others are:
 //   |P|^2 = |u|^2,  e^ia = -P / u.
-// The first is a row without a; the second is regular wherever the loop closes, so that the rows that are left
-// are singular where the block is, and nowhere else.
+// The first is a row without a; the second is regular wherever the loop closes, so that the rows that are
+// left are singular where the block is, and nowhere else.
 #include <algorithm>
 #include <cmath>
 
@@ -169,8 +169,9 @@ class Torn {
     for (std::size_t i = 0; i < at.size(); ++i) x[static_cast<std::size_t>(block_.cut[i])] = at[i].value;
     for (const Link& link : links_) {
       x[static_cast<std::size_t>(link.unknown)] = turn(link, solved);
-      solved.links.push_back({static_cast<Eigen::Index>(link.rows[0]), static_cast<Eigen::Index>(link.rows[1]),
-                              place_of(link.unknown), dot(link.u, link.u)});
+      solved.links.push_back({static_cast<Eigen::Index>(link.rows[0]),
+                              static_cast<Eigen::Index>(link.rows[1]), place_of(link.unknown),
+                              dot(link.u, link.u)});
     }
     for (int j : block_.unknowns) solved.x.push_back(x[static_cast<std::size_t>(j)]);
     return solved;
@@ -241,7 +242,8 @@ class Torn {
                                                : -P * link.u.conjugate() * (E(1.0) / dot(link.u, link.u));
     const E known = angle_of(link.turned, link.unknown).v;
     const E sense(link.turned.at(link.unknown));
-    solved.angles.push_back(held_angle(link.turned, direction, known + start_of(scene_, link.unknown).value * sense,
+    solved.angles.push_back(held_angle(link.turned, direction,
+                                       known + start_of(scene_, link.unknown).value * sense,
                                        tag(1 + ClosedChains::kCorrectionsOfCut)));
     return (solved.angles.back().angle - known) * sense;
   }
@@ -256,7 +258,8 @@ class Torn {
 
 }  // namespace
 
-std::vector<int> cut_of(const Model<E>& model, int block, const ExpressionMatrix& slopes, AlongOnGraph& along) {
+std::vector<int> cut_of(const Model<E>& model, int block, const ExpressionMatrix& slopes,
+                        AlongOnGraph& along) {
   const auto& unknowns = model.scene->blocks[static_cast<std::size_t>(block)].unknowns;
   const auto links = Links(model, block, along).found(slopes);
   std::vector<int> cut;
