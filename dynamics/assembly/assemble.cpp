@@ -83,14 +83,23 @@ void refuse_held_motors(Closing& closing, const std::vector<Closing::Part>& bloc
     solved.unknowns.insert(solved.unknowns.end(), block.unknowns.begin(), block.unknowns.end());
     solved.rows.insert(solved.rows.end(), block.rows.begin(), block.rows.end());
   }
+  // As far as a little is: beside a singular pose another way is as near, on which other rows don't hold.
+  constexpr std::array kMoves{0.02, 0.002, 2e-4};
   Seeded seeded(11);
   for (int trial = 0; trial < 3; ++trial) {
-    Vector moved = x, psi = closing.home_psi();
-    for (int i = 0; i < psi.size(); ++i)
-      psi[i] += 0.02 * seeded.draw() *
-                (closing.scene().independent[static_cast<std::size_t>(i)].linear ? closing.scene().size : 1);
-    if (!settle(closing, solved, moved, psi).closes) continue;
-    const auto open = open_closures(closing, moved, psi);
+    Vector direction = closing.home_psi();
+    for (int i = 0; i < direction.size(); ++i)
+      direction[i] =
+          seeded.draw() *
+          (closing.scene().independent[static_cast<std::size_t>(i)].linear ? closing.scene().size : 1);
+    std::vector<std::string> open;
+    for (double by : kMoves) {
+      Vector moved = x;
+      const Vector psi = closing.home_psi() + by * direction;
+      if (!settle(closing, solved, moved, psi).closes) continue;
+      open = open_closures(closing, moved, psi);
+      if (open.empty()) break;
+    }
     if (!open.empty())
       throw InputError(
           "overconstrained", closing.scene().closures.front().place,
@@ -150,20 +159,78 @@ std::string pose_text(const Closing& closing, const Closing::Part& block, const 
   return fmt::format("{{{}}}", fmt::join(texts, ", "));
 }
 
-/// Of each block, one after the other, the way nearest to the guess.
+/// Whether all rows hold at home, those that were left aside included.
+bool closes(Closing& closing, const Vector& x) {
+  return closing.residual(closing.whole(), x, closing.home_psi()).cwiseAbs().maxCoeff() < 1e-11;
+}
+
+/// A way to put all blocks together, one after the other.
+struct Together {
+  Vector x;
+  double squared = HUGE_VAL;  ///< its distance from the guess
+  /// A block, and two ways of it that are about as near; one is taken.
+  struct Alike {
+    const Closing::Part* block;
+    Vector one, other;
+  };
+  std::vector<Alike> alike = {};
+};
+
+/// The nearest to the guess of all ways of all blocks: where one block's nearest leads the next ones nowhere,
+/// or far away, another of its ways may be nearer in all.
+class NearestWay {
+ public:
+  NearestWay(Closing& closing, const std::vector<Closing::Part>& blocks, const Vector& guess)
+      : closing_(closing), blocks_(blocks), guess_(guess) {}
+
+  /// Not finite where there is none.
+  const Together& from(const Vector& x) {
+    go_on(0, {x, 0, {}});
+    return best_;
+  }
+
+ private:
+  void go_on(std::size_t b, const Together& so_far) {
+    if (!(so_far.squared < best_.squared)) return;
+    if (b == blocks_.size()) {
+      if (closes(closing_, so_far.x)) best_ = so_far;
+      return;
+    }
+    const auto ways = ways_of(closing_, blocks_[b], so_far.x, guess_, seeds_for(blocks_[b]));
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      Together next = so_far;
+      next.squared += ways[i].from_guess * ways[i].from_guess;
+      for (int u : blocks_[b].unknowns) next.x[u] = ways[i].x[u];
+      const std::size_t other = i == 0 ? 1 : i - 1;
+      if (other < ways.size() && ways[i].from_guess > 1e-9 && about_as_near(ways[i], ways[other]))
+        next.alike.push_back({&blocks_[b], ways[std::min(i, other)].x, ways[std::max(i, other)].x});
+      go_on(b + 1, next);
+    }
+  }
+
+  static bool about_as_near(const Found& a, const Found& b) {
+    return std::max(a.from_guess, b.from_guess) <= 1.1 * std::min(a.from_guess, b.from_guess);
+  }
+
+  Closing& closing_;
+  const std::vector<Closing::Part>& blocks_;
+  const Vector& guess_;
+  Together best_;
+};
+
 void take_nearest(Closing& closing, const std::vector<Closing::Part>& blocks, const Vector& guess,
                   Vector& x) {
-  for (const auto& block : blocks) {
-    const auto ways = ways_of(closing, block, x, guess, seeds_for(block));
-    if (ways.empty()) refuse(closing, x);
-    if (ways.size() > 1 && ways[0].from_guess > 1e-9 && ways[1].from_guess <= 1.1 * ways[0].from_guess)
-      throw InputError("ambiguous_branch", closing.scene().closures.front().place,
-                       fmt::format("two ways to put the mechanism together at home are about as near to the "
-                                   "guess {}: {} and {}. Expected a guess nearer to one of them, under home",
-                                   pose_text(closing, block, guess), pose_text(closing, block, ways[0].x),
-                                   pose_text(closing, block, ways[1].x)));
-    for (int u : block.unknowns) x[u] = ways[0].x[u];
+  const Together nearest = NearestWay(closing, blocks, guess).from(x);
+  if (!std::isfinite(nearest.squared)) refuse(closing, x);
+  if (!nearest.alike.empty()) {
+    const auto& [block, one, other] = nearest.alike.front();
+    throw InputError("ambiguous_branch", closing.scene().closures.front().place,
+                     fmt::format("two ways to put the mechanism together at home are about as near to the "
+                                 "guess {}: {} and {}. Expected a guess nearer to one of them, under home",
+                                 pose_text(closing, *block, guess), pose_text(closing, *block, one),
+                                 pose_text(closing, *block, other)));
   }
+  x = nearest.x;
 }
 
 void refuse_no_length(Scene& scene) {
@@ -216,8 +283,6 @@ void assemble(Scene& scene) {
   Structure structure = structure_of(closing, x);
   x = guess;
   take_nearest(closing, structure.blocks, guess, x);
-  if (!(closing.residual(closing.whole(), x, closing.home_psi()).cwiseAbs().maxCoeff() < 1e-11))
-    refuse(closing, x);
   structure = structure_of(closing, x);
   refuse_held_motors(closing, structure.blocks, x);
   refuse_motors_that_move_nothing(scene, closing, x);
