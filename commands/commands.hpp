@@ -14,6 +14,7 @@ void add_control_command(CLI::App& app, int& status);
 void add_replay_command(CLI::App& app, int& status);
 void add_track_command(CLI::App& app, int& status);
 void add_dynamics_command(CLI::App& app, int& status);
+void add_import_command(CLI::App& app, int& status);
 void add_assemble_command(CLI::App& app, int& status);
 void add_explain_command(CLI::App& app, int& status);
 void add_compile_command(CLI::App& app, int& status);

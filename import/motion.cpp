@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "import/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/procedure/procedure.hpp"
+
+namespace mixloop {
+namespace {
+
+constexpr double kSpare = 0.8;  ///< of a limit that a motion takes
+
+/// A scene's numbers at poses, for the parameters' defaults.
+class AtPoses {
+ public:
+  explicit AtPoses(const std::shared_ptr<const Scene>& scene)
+      : values_(scene->default_parameters()),
+        model_(make_model<double>(scene, std::span<const double>(values_))),
+        ws_(model_),
+        zero_(static_cast<std::size_t>(scene->n()), 0.0) {}
+
+  Eigen::MatrixXd mass(const std::vector<double>& psi) { return mass_matrix<double>(model_, psi, 0.0, ws_); }
+  Eigen::VectorXd torque(const std::vector<double>& psi, const std::vector<double>& psid,
+                         const std::vector<double>& psidd) {
+    return inverse_dynamics<double>(model_, psi, psid, psidd, 0.0, ws_);
+  }
+  Eigen::MatrixXd jacobian(const std::vector<double>& psi) {
+    return end_effector<double>(model_, psi, zero_, zero_, 0.0, ws_).jacobian;
+  }
+
+ private:
+  std::vector<double> values_;
+  Model<double> model_;
+  Workspace<double> ws_;
+  std::vector<double> zero_;
+};
+
+/// The motors' target, home for the free ones.
+std::vector<double> pose_at_target(const Scene& scene, const Motion& motion) {
+  std::vector<double> psi = scene.home;
+  std::copy(motion.target.begin(), motion.target.end(), psi.begin());
+  return psi;
+}
+
+/// Half a radian or a tenth of a metre, but a quarter of the way to the limit that is farther off.
+double moderate_step(const MotorLimits& limits, bool slides, double home) {
+  const double most = slides ? 0.1 : 0.5;
+  if (!limits.position) return most;
+  const double up = limits.position->second - home, down = home - limits.position->first;
+  return up >= down ? std::min(most, up / 4) : -std::min(most, down / 4);
+}
+
+/// The least time in which the cycloid (34) keeps the limits of velocity, in tenths of a second.
+double least_duration(const std::vector<MotorLimits>& limits, const Scene& scene, const Motion& motion) {
+  double duration = 2;
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    if (limits[i].velocity)
+      duration =
+          std::max(duration, 2 * std::abs(motion.target[i] - scene.home[i]) / (kSpare * *limits[i].velocity));
+  return std::ceil(duration * 10) / 10;
+}
+
+/// Whether the cycloid to the target keeps the limits of torque.
+bool keeps_torque(AtPoses& at, const Scene& scene, const std::vector<MotorLimits>& limits,
+                  const Motion& motion) {
+  constexpr int kSteps = 32;
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const std::vector<double> end = pose_at_target(scene, motion);
+  std::vector<double> psi = scene.home, psid(psi.size()), psidd(psi.size());
+  for (int k = 0; k <= kSteps; ++k) {
+    const double u = double(k) / kSteps, T = motion.duration;
+    for (std::size_t i = 0; i < psi.size(); ++i) {
+      const double way = end[i] - scene.home[i];
+      psi[i] = scene.home[i] + way * (u - std::sin(kTurn * u) / kTurn);
+      psid[i] = way * (1 - std::cos(kTurn * u)) / T;
+      psidd[i] = way * kTurn * std::sin(kTurn * u) / (T * T);
+    }
+    const Eigen::VectorXd tau = at.torque(psi, psid, psidd);
+    for (std::size_t i = 0; i < limits.size(); ++i)
+      if (limits[i].torque && std::abs(tau[static_cast<Eigen::Index>(i)]) > kSpare * *limits[i].torque)
+        return false;
+  }
+  return true;
+}
+
+/// Narrows a motor's limits to those of a joint that follows it by slope * position + offset.
+void narrow(MotorLimits& motor, const Robot::Limits& limits, double slope, double offset) {
+  if (limits.lower < limits.upper) {
+    const auto [low, high] = std::minmax((limits.lower - offset) / slope, (limits.upper - offset) / slope);
+    const auto known = motor.position.value_or(std::pair{low, high});
+    motor.position = {std::max(known.first, low), std::min(known.second, high)};
+  }
+  if (limits.velocity > 0)
+    motor.velocity = std::min(motor.velocity.value_or(limits.velocity / std::abs(slope)),
+                              limits.velocity / std::abs(slope));
+}
+
+void list_unsaid(const Robot::Joint& joint, LeftBehind& left) {
+  if (joint.kind != Robot::Joint::Kind::continuous && joint.limits->lower == joint.limits->upper)
+    left.add("limits of position with nothing between them, of the joints", joint.name, joint.place);
+  if (joint.limits->velocity == 0)
+    left.add("limits of velocity of 0, of the joints", joint.name, joint.place);
+  if (joint.limits->effort == 0 && !joint.mimic)
+    left.add("limits of effort of 0, of the joints", joint.name, joint.place);
+  if (joint.limits->effort != 0 && joint.mimic)
+    left.add("limits of effort of joints that mimic others", joint.name, joint.place);
+}
+
+}  // namespace
+
+std::vector<MotorLimits> limits_of(const Robot& robot, const Roles& roles, LeftBehind& left) {
+  std::vector<MotorLimits> all(roles.motors.size());
+  for (const auto& joint : robot.joints) {
+    if (!joint.moves() || !joint.limits) continue;
+    list_unsaid(joint, left);
+    double slope = 1, offset = 0;  // of the joint's position over its motor's
+    const Robot::Joint* at = &joint;
+    for (; at->mimic; at = &robot.joints[static_cast<std::size_t>(at->mimic->joint)]) {
+      offset += slope * at->mimic->offset;
+      slope *= at->mimic->multiplier;
+    }
+    const auto motor =
+        std::find(roles.motors.begin(), roles.motors.end(), static_cast<int>(at - robot.joints.data()));
+    if (motor == roles.motors.end()) {
+      left.add("limits of free joints", joint.name, joint.place);
+      continue;
+    }
+    MotorLimits& limits = all[static_cast<std::size_t>(motor - roles.motors.begin())];
+    const MotorLimits before = limits;
+    Robot::Limits said = *joint.limits;
+    if (joint.kind == Robot::Joint::Kind::continuous) said.lower = said.upper = 0;
+    narrow(limits, said, slope, offset);
+    if (!joint.mimic && said.effort > 0) limits.torque = said.effort;
+    if (limits.position && limits.position->first >= limits.position->second) {
+      limits.position = before.position;
+      left.add("limits of position that contradict those of the joint that is mimicked", joint.name,
+               joint.place);
+    }
+  }
+  return all;
+}
+
+std::vector<double> home_within(const std::vector<MotorLimits>& limits, std::size_t free) {
+  std::vector<double> home;
+  for (const MotorLimits& one : limits) {
+    const auto [low, high] = one.position.value_or(std::pair{-1.0, 1.0});
+    home.push_back(low <= 0 && high >= 0 ? 0 : std::round((low + high) / 2 * 1000) / 1000);
+    if (home.back() <= low || home.back() >= high) home.back() = low <= 0 && high >= 0 ? 0 : (low + high) / 2;
+  }
+  home.resize(home.size() + free, 0.0);
+  return home;
+}
+
+Motion moderate_motion(const std::shared_ptr<const Scene>& scene, const Robot& robot, const Roles& roles,
+                       const std::vector<MotorLimits>& limits) {
+  AtPoses at(scene);
+  const auto motion_of = [&](double share) {
+    Motion motion;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      const bool slides = robot.joints[static_cast<std::size_t>(roles.motors[i])].slides();
+      const double step = share * moderate_step(limits[i], slides, scene->home[i]);
+      motion.target.push_back(scene->home[i] + std::trunc(step * 1000) / 1000);
+    }
+    motion.duration = least_duration(limits, *scene, motion);
+    return motion;
+  };
+  for (const double share : {1.0, 0.5, 0.25, 0.125}) {
+    Motion motion = motion_of(share);
+    for (int slower = 0; slower < 3; ++slower, motion.duration *= 2)
+      if (keeps_torque(at, *scene, limits, motion)) return motion;
+  }
+  Motion motion = motion_of(1);
+  motion.keeps_torque = false;
+  return motion;
+}
+
+Gains moderate_gains(const std::shared_ptr<const Scene>& scene, const Motion& motion) {
+  // With D = diag(1 / (M^-1)_ii) no eigenvalue of M^-1 D exceeds n: of s^2 + 2 w lambda s + w^2 lambda no
+  // root is faster than 2 w n, which is kept below 400 1/s.
+  AtPoses at(scene);
+  const int n = scene->n_u();
+  const double w = std::min(20.0, 200.0 / n);
+  Eigen::VectorXd felt = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
+  for (const auto& psi : {scene->home, pose_at_target(*scene, motion)})
+    felt = felt.cwiseMin(at.mass(psi).topLeftCorner(n, n).inverse().diagonal().cwiseInverse());
+  Gains gains;
+  for (const double inertia : felt) {
+    gains.kp.push_back(w * w * inertia);
+    gains.kv.push_back(2 * w * inertia);
+  }
+  return gains;
+}
+
+std::string free_axes(const std::shared_ptr<const Scene>& scene, const Motion& motion) {
+  // The rows of the Jacobian at home, half-way and at the target that are independent of those taken before.
+  AtPoses at(scene);
+  const std::vector<double> end = pose_at_target(*scene, motion);
+  const int n = scene->n_u();
+  Eigen::MatrixXd rows(3, 3 * n);
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> psi = scene->home;
+    for (std::size_t i = 0; i < psi.size(); ++i) psi[i] += 0.5 * k * (end[i] - scene->home[i]);
+    rows.middleCols(k * n, n) = at.jacobian(psi).leftCols(n);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  const double largest = std::abs(qr.matrixQR()(0, 0));
+  std::string axes;
+  for (int i = 0; i < std::min(3, n); ++i)
+    if (std::abs(qr.matrixQR()(i, i)) > 1e-6 * largest) axes += "xyz"[qr.colsPermutation().indices()[i]];
+  std::sort(axes.begin(), axes.end());
+  return axes;
+}
+
+}  // namespace mixloop

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamics/scene/scene.hpp"
+#include "import/left_behind.hpp"
+#include "import/robot.hpp"
+#include "import/scene_text.hpp"
+
+namespace mixloop {
+
+/// What a motor is held to, those of the joints that mimic it included; what a robot doesn't say is absent.
+struct MotorLimits {
+  std::optional<std::pair<double, double>> position;
+  std::optional<double> velocity, torque;
+};
+
+/// Of each motor. What says nothing (a range of nothing, a velocity or an effort of 0) is listed.
+std::vector<MotorLimits> limits_of(const Robot& robot, const Roles& roles, LeftBehind& left);
+
+/// A pose within the limits: 0 where they allow that, else the middle; of the free ones 0.
+std::vector<double> home_within(const std::vector<MotorLimits>& limits, std::size_t free);
+
+/// From home to a target and back, at rest at each, in joint space.
+struct Motion {
+  std::vector<double> target;  ///< of the motors, rad or m
+  double duration = 2;         ///< of each way, s
+  bool keeps_torque = true;    ///< whether the limits of torque hold on it, with a fifth to spare
+};
+
+/// A moderate one within the limits: slower and shorter where torque or velocity want it.
+Motion moderate_motion(const std::shared_ptr<const Scene>& scene, const Robot& robot, const Roles& roles,
+                       const std::vector<MotorLimits>& limits);
+
+/// Gains of computed torque, a value a motor: critical damping at the same rate for each motor, the others
+/// free, in the lighter of home and target.
+struct Gains {
+  std::vector<double> kp, kv;
+};
+Gains moderate_gains(const std::shared_ptr<const Scene>& scene, const Motion& motion);
+
+/// Which of x, y, z the end effector can be moved along by the motors, at most as many as there are of them.
+std::string free_axes(const std::shared_ptr<const Scene>& scene, const Motion& motion);
+
+}  // namespace mixloop
