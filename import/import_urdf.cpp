@@ -129,7 +129,7 @@ std::string head_of(const Imported& made, const std::string& file) {
     head += comment(fmt::format("Renamed: {} is {}.", printable_name(from), printable_name(to)));
   if (!made.left.kinds().empty()) head += "# Not carried over:\n";
   for (const auto& kind : made.left.kinds()) head += comment("- " + text_of(kind));
-  return head;
+  return head + "\n";
 }
 
 }  // namespace

@@ -29,11 +29,12 @@ const std::map<std::string, std::set<std::string>, std::less<>>& known_children(
   return known;
 }
 
-/// The name of the nearest element around this one that has any.
+/// The name of the element, or of what it refers to, or of the nearest element around it that has any.
 std::string whose(const Element& element) {
   for (const tinyxml2::XMLNode* at = &element; at != nullptr; at = at->Parent())
-    if (at->ToElement() != nullptr && at->ToElement()->Attribute("name") != nullptr)
-      return at->ToElement()->Attribute("name");
+    for (const char* attribute : {"name", "reference"})
+      if (at->ToElement() != nullptr && at->ToElement()->Attribute(attribute) != nullptr)
+        return at->ToElement()->Attribute(attribute);
   return "without a name";
 }
 

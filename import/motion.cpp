@@ -88,7 +88,7 @@ bool keeps_torque(AtPoses& at, const Scene& scene, const std::vector<MotorLimits
 /// Narrows a motor's limits to those of a joint that follows it by slope * position + offset.
 void narrow(MotorLimits& motor, const Robot::Limits& limits, double slope, double offset) {
   if (limits.lower < limits.upper) {
-    const auto [low, high] = std::minmax((limits.lower - offset) / slope, (limits.upper - offset) / slope);
+    const auto [low, high] = std::minmax({(limits.lower - offset) / slope, (limits.upper - offset) / slope});
     const auto known = motor.position.value_or(std::pair{low, high});
     motor.position = {std::max(known.first, low), std::min(known.second, high)};
   }

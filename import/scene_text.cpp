@@ -81,7 +81,7 @@ class SceneWriter {
     if (!solids.empty()) text_ += "\nsolids:\n" + solids;
   }
 
-  std::string text() && { return std::move(text_); }
+  std::string text() && { return broken_lines(text_); }
 
  private:
   const Robot::Joint& joint(int j) const { return robot_.joints[static_cast<std::size_t>(j)]; }

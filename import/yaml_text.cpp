@@ -35,6 +35,17 @@ double of_degrees(double degrees) {
   return number_of(node, kPure, "an angle");
 }
 
+/// The last comma between entries of a line that is too long, within its width; 0 where there is none.
+std::size_t last_comma(const std::string& line) {
+  std::size_t last = 0;
+  bool is_quoted = false;
+  for (std::size_t i = 0; line.size() > kWidest && i < kWidest; ++i) {
+    if (line[i] == '"' && (i == 0 || line[i - 1] != '\\')) is_quoted = !is_quoted;
+    if (!is_quoted && line.compare(i, 2, ", ") == 0) last = i;
+  }
+  return last;
+}
+
 template <class Text>
 std::string listed(std::span<const double> values, const Text& text) {
   std::string all;
@@ -70,6 +81,21 @@ std::string list_text(std::span<const double> values, std::string_view unit) {
 }
 
 std::string angles_text(std::span<const double> radians) { return listed(radians, angle_text); }
+
+std::string broken_lines(std::string_view yaml) {
+  std::string text;
+  while (!yaml.empty()) {
+    std::string line(yaml.substr(0, yaml.find('\n')));
+    yaml.remove_prefix(std::min(line.size() + 1, yaml.size()));
+    const std::string indent(line.find_first_not_of(" -") + 3, ' ');
+    for (std::size_t comma = last_comma(line); comma > 0; comma = last_comma(line)) {
+      text += line.substr(0, comma + 1) + "\n";
+      line = indent + line.substr(comma + 2);
+    }
+    text += line + "\n";
+  }
+  return text;
+}
 
 std::string comment(std::string_view text) {
   std::string lines, line = "#";

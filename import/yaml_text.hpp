@@ -18,6 +18,9 @@ std::string angle_text(double radians);
 std::string list_text(std::span<const double> values, std::string_view unit);
 std::string angles_text(std::span<const double> radians);
 
+/// YAML whose lines of more than 116 characters are broken behind commas of their lists and mappings.
+std::string broken_lines(std::string_view yaml);
+
 /// The text as comment lines of at most 116 characters, broken between words.
 std::string comment(std::string_view text);
 
