@@ -61,6 +61,7 @@ nlohmann::json as_json(const Imported& made, const Written& files) {
           {"experiment", files.experiment.string()},
           {"root", made.root},
           {"tip", made.tip},
+          {"leaves", made.leaves},
           {"motors", made.motors},
           {"free", made.free},
           {"following", made.following},
@@ -79,8 +80,11 @@ void print_summary(const Imported& made, const Written& files) {
   fmt::print("  motors        {}\n", listed(made.motors));
   if (!made.free.empty()) fmt::print("  free          {}\n", listed(made.free));
   if (!made.following.empty()) fmt::print("  following     {}\n", listed(made.following));
-  fmt::print("  ground        the link {}\n  end effector  the link {}\n", printable_name(made.root),
-             printable_name(made.tip));
+  fmt::print("  ground        the link {}\n  end effector  the link {}{}\n", printable_name(made.root),
+             printable_name(made.tip),
+             made.leaves.size() > 1
+                 ? fmt::format(", of {} leaves (--tip takes another link)", made.leaves.size())
+                 : "");
 }
 
 void say_what_changed(const Imported& made) {

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "dynamics/assembly/load_scene.hpp"
+#include "dynamics/procedure/singular_mass.hpp"
 #include "import/experiment_text.hpp"
 #include "import/inertia.hpp"
 #include "import/motion.hpp"
@@ -91,15 +92,21 @@ int named_tip(const Robot& robot, const std::string& name) {
   return static_cast<int>(found - robot.links.begin());
 }
 
-/// The leaf that most joints move, of several the first.
-int farthest_leaf(const Robot& robot) {
+/// The links that move and on which nothing hangs.
+std::vector<int> moved_leaves(const Robot& robot) {
   std::vector<bool> is_leaf(robot.links.size(), true);
   for (const auto& joint : robot.joints) is_leaf[static_cast<std::size_t>(joint.parent)] = false;
-  int best = 0, most = 0;
+  std::vector<int> leaves;
   for (std::size_t i = 0; i < robot.links.size(); ++i)
-    if (const int count = joints_below(robot, static_cast<int>(i)); is_leaf[i] && count > most)
-      best = static_cast<int>(i), most = count;
-  return best;
+    if (is_leaf[i] && joints_below(robot, static_cast<int>(i)) > 0) leaves.push_back(static_cast<int>(i));
+  return leaves;
+}
+
+/// Of them the one that most joints move, of several the first.
+int farthest(const Robot& robot, const std::vector<int>& leaves) {
+  return *std::max_element(leaves.begin(), leaves.end(), [&](int one, int other) {
+    return joints_below(robot, one) < joints_below(robot, other);
+  });
 }
 
 void list_standing_inertias(const Robot& robot, LeftBehind& left) {
@@ -112,7 +119,9 @@ void list_standing_inertias(const Robot& robot, LeftBehind& left) {
 /// A scene's text, loaded; what is wrong with it is told of the file that it was made of.
 std::shared_ptr<const Scene> loaded(const std::string& text, const std::string& file) {
   try {
-    return std::make_shared<const Scene>(load_scene(parse_document(text, "scene")));
+    auto scene = std::make_shared<const Scene>(load_scene(parse_document(text, "scene")));
+    require_inertia(scene, scene->default_parameters());
+    return scene;
   } catch (const InputError& error) {
     throw InputError(error.code, {file}, "what it describes can't be a scene: " + error.message);
   }
@@ -145,7 +154,8 @@ Imported import_urdf(const std::string& text, const std::string& file, const Imp
   list_standing_inertias(robot, made.left);
   list_left_behind(xml, robot, made.left);
   const std::vector<MotorLimits> limits = limits_of(robot, roles, made.left);
-  const int tip = options.tip.empty() ? farthest_leaf(robot) : named_tip(robot, options.tip);
+  const std::vector<int> leaves = moved_leaves(robot);
+  const int tip = options.tip.empty() ? farthest(robot, leaves) : named_tip(robot, options.tip);
   const std::vector<double> home = home_within(limits, roles.free.size());
 
   const auto draft = loaded(scene_text(robot, names, roles, tip, "", home), file);
@@ -157,6 +167,7 @@ Imported import_urdf(const std::string& text, const std::string& file, const Imp
 
   made.root = robot.links.front().name;
   made.tip = robot.links[static_cast<std::size_t>(tip)].name;
+  for (const int leaf : leaves) made.leaves.push_back(robot.links[static_cast<std::size_t>(leaf)].name);
   made.renamed = names.renamed;
   for (const auto& [joints, list] :
        {std::pair{&roles.motors, &made.motors}, std::pair{&roles.free, &made.free},

@@ -21,6 +21,7 @@ struct Imported {
   std::string name;                                  ///< NAME of NAME.scene.yaml and NAME.experiment.yaml
   std::string scene, experiment;                     ///< their texts
   std::string root, tip;                             ///< links
+  std::vector<std::string> leaves;                   ///< links that could be the tip as well
   std::vector<std::string> motors, free, following;  ///< as the scene calls them
   std::vector<std::pair<std::string, std::string>> renamed;
   LeftBehind left;

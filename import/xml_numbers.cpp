@@ -77,6 +77,14 @@ void check_numbers_of(const XmlFile& file, const XmlFile::Element& element) {
   }
 }
 
+/// An <inertial> says all or nothing.
+void check_inertial(const XmlFile& file, const XmlFile::Element& element) {
+  if (element.Name() != std::string_view("inertial")) return;
+  for (const char* part : {"mass", "inertia"})
+    if (element.FirstChildElement(part) == nullptr)
+      throw InputError("missing_key", file.place(element), fmt::format("<inertial> lacks <{}>", part));
+}
+
 }  // namespace
 
 double number_in(const XmlFile& file, const XmlFile::Element* element, const char* attribute, double unless) {
@@ -94,7 +102,10 @@ std::array<double, 3> triple_in(const XmlFile& file, const XmlFile::Element* ele
 void check_numbers(const XmlFile& file) {
   for (const auto* part : children_of(file.root()))
     if (part->Name() == std::string_view("link") || part->Name() == std::string_view("joint"))
-      for_each_element(*part, [&](const XmlFile::Element& element) { check_numbers_of(file, element); });
+      for_each_element(*part, [&](const XmlFile::Element& element) {
+        check_numbers_of(file, element);
+        check_inertial(file, element);
+      });
 }
 
 }  // namespace mixloop

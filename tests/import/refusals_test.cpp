@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(
     Files, BadUrdf,
     testing::Values(BadInput{"nothing", "", "empty_file", "expected XML"},
                     BadInput{"bytes", "<robot>@\x01</robot>", "not_text", "0x01"},
-                    BadInput{"yaml", "name: robot\n", "invalid_xml", "no valid XML"},
+
                     BadInput{"a_comment", "<!-- nothing -->", "invalid_xml", "no element"},
                     BadInput{"a_scene_of_gazebo", "@<sdf version='1.6'/>", "not_urdf", "found <sdf>"},
                     BadInput{"a_macro",
@@ -163,6 +163,10 @@ INSTANTIATE_TEST_SUITE_P(
             arm(R"(@<inertial><mass value="1"/><inertia ixx="1" ixy="2" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)"),
             "impossible_inertia", "principal moment of inertia of -1"},
         BadInput{
+            "nothing_about_its_axis",
+            arm(R"(<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="0"/></inertial>)"),
+            "singular_mass", "'turn'"},
+        BadInput{
             "too_wide",
             arm(R"(@<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="2.1"/></inertial>)"),
             "impossible_inertia", "take it as it is with --any-inertia"},
@@ -175,10 +179,30 @@ INSTANTIATE_TEST_SUITE_P(
             arm(R"(<inertial><mass @value="1 kg"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)"),
             "wrong_size", "'value' has 2 numbers; expected 1"},
         BadInput{"no_mass_at_all",
-                 "<robot name='r'><link name='a'/>\n<link name='b'><inertial/></link>" +
+                 "<robot name='r'><link name='a'/>\n<link name='b'>@<inertial/></link>" +
                      joint("<joint name=\"x\" type=\"continuous\"", "a", "b") + "</robot>",
-                 "invalid_urdf", "urdfdom refuses the file"}),
+                 "missing_key", "<inertial> lacks <mass>"}),
     bad_input_name);
+
+TEST(Refusals, OfWhatIsNoXmlNameTheLine) {
+  for (const auto& [text, line] :
+       {std::pair{"name: robot\n", 1}, std::pair{"<robot name='r'>\n<link name='a'>\n</robot>", 2}}) {
+    const auto error = input_error([&] { import_urdf(text, "bad.urdf", {}); });
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->code, "invalid_xml");
+    EXPECT_EQ(error->place.line, line);
+  }
+}
+
+TEST(Refusals, OfUrdfdomAreQuotedAndNotPrinted) {
+  testing::internal::CaptureStderr();
+  const auto error = input_error(
+      [] { import_urdf("<robot name='r' version='2.0'><link name='a'/></robot>", "bad.urdf", {}); });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code, "invalid_urdf");
+  EXPECT_NE(error->message.find("urdfdom refuses the file: '"), std::string::npos) << error->what();
+}
 
 TEST(Refusals, OfOptionsNameWhatThereIs) {
   const auto refused = [](ImportOptions options) {
