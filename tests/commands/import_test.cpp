@@ -25,7 +25,7 @@ TEST_F(ImportCommand, WhatItWritesIsExplainedEvaluatedAndSimulatedAtOnce) {
   ASSERT_EQ(import.wait(), 0) << import.err();
   EXPECT_THAT(import.out(), HasSubstr("motors        J1, J2, J3, J4\n"));
   EXPECT_THAT(import.err(),
-              HasSubstr("scara.urdf:4:3: not carried over: inertias of links that stand still: base\n"));
+              HasSubstr("scara.urdf:5:5: not carried over: inertias of links that stand still: base\n"));
   const std::string scene = folder_.file("new/robots/scara.scene.yaml");
   Command explain({bin("mixloop"), "explain", scene});
   EXPECT_EQ(explain.wait(), 0) << explain.err();
