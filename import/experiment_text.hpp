@@ -8,10 +8,10 @@
 
 namespace mixloop {
 
-/// The experiment's YAML without its head: the motion there and back by computed torque, within the limits.
-/// `scene`: its file's name.
-std::string experiment_text(const std::string& scene_file, const Robot& robot, const Roles& roles,
-                            const Scene& scene, const Motion& motion, const Gains& gains,
-                            const std::vector<MotorLimits>& limits);
+/// The experiment's YAML without its head: the motors from home to the motion's target and back by computed
+/// torque, within the robot's limits.
+std::string experiment_text(const std::string& scene_file, const Robot& robot, const SceneNames& names,
+                            const Roles& roles, const std::vector<double>& home, const Motion& motion,
+                            const Tuning& tuning, const std::vector<MotorLimits>& limits);
 
 }  // namespace mixloop

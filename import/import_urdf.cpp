@@ -127,6 +127,14 @@ std::shared_ptr<const Scene> loaded(const std::string& text, const std::string& 
   }
 }
 
+/// What an experiment says of itself before it begins.
+std::string experiment_head(const Imported& made, const std::string& file) {
+  return comment(fmt::format(
+      "The motors of {} from home to another pose and back by computed torque, within the limits "
+      "of {} (`mixloop import`). The gains give each motor, the others free, two equal poles.",
+      printable_name(made.name), printable_name(std::filesystem::path(file).filename().string())));
+}
+
 /// What a scene made of a robot says of itself before it begins.
 std::string head_of(const Imported& made, const std::string& file) {
   std::string head =
@@ -160,8 +168,11 @@ Imported import_urdf(const std::string& text, const std::string& file, const Imp
 
   const auto draft = loaded(scene_text(robot, names, roles, tip, "", home), file);
   const Motion motion = moderate_motion(draft, robot, roles, limits);
-  if (!motion.keeps_torque)
-    made.left.add("limits of effort, which weight alone passes on the way, of", "all motors", {file});
+  for (const std::size_t motor : motion.overloaded) {
+    const auto& joint = robot.joints[static_cast<std::size_t>(roles.motors[motor])];
+    made.left.add("limits of effort that the weight alone comes too near to, of the joints", joint.name,
+                  joint.place);
+  }
   const std::string scene = scene_text(robot, names, roles, tip, free_axes(draft, motion), home);
   loaded(scene, file);
 
@@ -174,8 +185,9 @@ Imported import_urdf(const std::string& text, const std::string& file, const Imp
         std::pair{&roles.mimics, &made.following}})
     for (const int j : *joints) list->push_back(names.joints[static_cast<std::size_t>(j)]);
   made.scene = head_of(made, file) + scene;
-  made.experiment = experiment_text(made.name + ".scene.yaml", robot, roles, *draft, motion,
-                                    moderate_gains(draft, motion), limits);
+  made.experiment = experiment_head(made, file) +
+                    experiment_text(made.name + ".scene.yaml", robot, names, roles, home, motion,
+                                    moderate_tuning(draft, robot, roles, motion), limits);
   return made;
 }
 

@@ -62,13 +62,14 @@ double least_duration(const std::vector<MotorLimits>& limits, const Scene& scene
   return std::ceil(duration * 10) / 10;
 }
 
-/// Whether the cycloid to the target keeps the limits of torque.
-bool keeps_torque(AtPoses& at, const Scene& scene, const std::vector<MotorLimits>& limits,
-                  const Motion& motion) {
+/// The motors whose limit of torque the cycloid to the target doesn't keep.
+std::vector<std::size_t> overloaded(AtPoses& at, const Scene& scene, const std::vector<MotorLimits>& limits,
+                                    const Motion& motion) {
   constexpr int kSteps = 32;
   constexpr double kTurn = 2 * std::numbers::pi;
   const std::vector<double> end = pose_at_target(scene, motion);
   std::vector<double> psi = scene.home, psid(psi.size()), psidd(psi.size());
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(scene.n());
   for (int k = 0; k <= kSteps; ++k) {
     const double u = double(k) / kSteps, T = motion.duration;
     for (std::size_t i = 0; i < psi.size(); ++i) {
@@ -77,12 +78,45 @@ bool keeps_torque(AtPoses& at, const Scene& scene, const std::vector<MotorLimits
       psid[i] = way * (1 - std::cos(kTurn * u)) / T;
       psidd[i] = way * kTurn * std::sin(kTurn * u) / (T * T);
     }
-    const Eigen::VectorXd tau = at.torque(psi, psid, psidd);
-    for (std::size_t i = 0; i < limits.size(); ++i)
-      if (limits[i].torque && std::abs(tau[static_cast<Eigen::Index>(i)]) > kSpare * *limits[i].torque)
-        return false;
+    most = most.cwiseMax(at.torque(psi, psid, psidd).cwiseAbs());
   }
-  return true;
+  std::vector<std::size_t> motors;
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    if (limits[i].torque && most[static_cast<Eigen::Index>(i)] > kSpare * *limits[i].torque)
+      motors.push_back(i);
+  return motors;
+}
+
+/// A joint's position over that of the one that it follows: itself, unless it mimics another.
+struct Following {
+  int joint = 0;
+  double slope = 1, offset = 0;
+};
+
+Following following(const Robot& robot, int joint) {
+  Following follows{joint};
+  const auto mimic = [&]() -> const auto& {
+    return robot.joints[static_cast<std::size_t>(follows.joint)].mimic;
+  };
+  while (mimic()) {
+    const Robot::Mimic& next = *mimic();
+    follows = {next.joint, follows.slope * next.multiplier, follows.offset + follows.slope * next.offset};
+  }
+  return follows;
+}
+
+/// Of each independent coordinate: the joints' that follow it included.
+Eigen::VectorXd damping_of(const Robot& robot, const Roles& roles) {
+  std::vector<int> independent = roles.motors;
+  independent.insert(independent.end(), roles.free.begin(), roles.free.end());
+  Eigen::VectorXd damping = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(independent.size()));
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    if (!robot.joints[j].moves()) continue;
+    const Following follows = following(robot, static_cast<int>(j));
+    const auto at = std::find(independent.begin(), independent.end(), follows.joint) - independent.begin();
+    damping[at] += robot.joints[j].damping * follows.slope * follows.slope;
+  }
+  return damping;
 }
 
 /// Narrows a motor's limits to those of a joint that follows it by slope * position + offset.
@@ -115,14 +149,8 @@ std::vector<MotorLimits> limits_of(const Robot& robot, const Roles& roles, LeftB
   for (const auto& joint : robot.joints) {
     if (!joint.moves() || !joint.limits) continue;
     list_unsaid(joint, left);
-    double slope = 1, offset = 0;  // of the joint's position over its motor's
-    const Robot::Joint* at = &joint;
-    for (; at->mimic; at = &robot.joints[static_cast<std::size_t>(at->mimic->joint)]) {
-      offset += slope * at->mimic->offset;
-      slope *= at->mimic->multiplier;
-    }
-    const auto motor =
-        std::find(roles.motors.begin(), roles.motors.end(), static_cast<int>(at - robot.joints.data()));
+    const Following follows = following(robot, static_cast<int>(&joint - robot.joints.data()));
+    const auto motor = std::find(roles.motors.begin(), roles.motors.end(), follows.joint);
     if (motor == roles.motors.end()) {
       left.add("limits of free joints", joint.name, joint.place);
       continue;
@@ -131,7 +159,7 @@ std::vector<MotorLimits> limits_of(const Robot& robot, const Roles& roles, LeftB
     const MotorLimits before = limits;
     Robot::Limits said = *joint.limits;
     if (joint.kind == Robot::Joint::Kind::continuous) said.lower = said.upper = 0;
-    narrow(limits, said, slope, offset);
+    narrow(limits, said, follows.slope, follows.offset);
     if (!joint.mimic && said.effort > 0) limits.torque = said.effort;
     if (limits.position && limits.position->first >= limits.position->second) {
       limits.position = before.position;
@@ -169,28 +197,37 @@ Motion moderate_motion(const std::shared_ptr<const Scene>& scene, const Robot& r
   for (const double share : {1.0, 0.5, 0.25, 0.125}) {
     Motion motion = motion_of(share);
     for (int slower = 0; slower < 3; ++slower, motion.duration *= 2)
-      if (keeps_torque(at, *scene, limits, motion)) return motion;
+      if (overloaded(at, *scene, limits, motion).empty()) return motion;
   }
   Motion motion = motion_of(1);
-  motion.keeps_torque = false;
+  motion.overloaded = overloaded(at, *scene, limits, motion);
   return motion;
 }
 
-Gains moderate_gains(const std::shared_ptr<const Scene>& scene, const Motion& motion) {
+Tuning moderate_tuning(const std::shared_ptr<const Scene>& scene, const Robot& robot, const Roles& roles,
+                       const Motion& motion) {
   // With D = diag(1 / (M^-1)_ii) no eigenvalue of M^-1 D exceeds n: of s^2 + 2 w lambda s + w^2 lambda no
   // root is faster than 2 w n, which is kept below 400 1/s.
   AtPoses at(scene);
   const int n = scene->n_u();
   const double w = std::min(20.0, 200.0 / n);
+  const Eigen::VectorXd damping = damping_of(robot, roles);
   Eigen::VectorXd felt = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
-  for (const auto& psi : {scene->home, pose_at_target(*scene, motion)})
-    felt = felt.cwiseMin(at.mass(psi).topLeftCorner(n, n).inverse().diagonal().cwiseInverse());
-  Gains gains;
-  for (const double inertia : felt) {
-    gains.kp.push_back(w * w * inertia);
-    gains.kv.push_back(2 * w * inertia);
+  double fastest = 0;  // no eigenvalue of M^-1 diag(damping) exceeds its trace
+  for (const auto& psi : {scene->home, pose_at_target(*scene, motion)}) {
+    const Eigen::MatrixXd M = at.mass(psi);
+    felt = felt.cwiseMin(M.topLeftCorner(n, n).inverse().diagonal().cwiseInverse());
+    fastest = std::max(fastest, M.inverse().diagonal().dot(damping));
   }
-  return gains;
+  Tuning tuning;
+  for (const double inertia : felt) {
+    tuning.kp.push_back(w * w * inertia);
+    tuning.kv.push_back(2 * w * inertia);
+  }
+  constexpr double kTick = 1e-3, kStable = 2.5;  // rk4 keeps a pole p with |p| h below 2.79
+  tuning.substeps = std::max(1, static_cast<int>(std::ceil(std::min(fastest * kTick / kStable, 1000.0))));
+  tuning.lags = fastest * kTick > 0.5;
+  return tuning;
 }
 
 std::string free_axes(const std::shared_ptr<const Scene>& scene, const Motion& motion) {

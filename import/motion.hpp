@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,19 +31,28 @@ std::vector<double> home_within(const std::vector<MotorLimits>& limits, std::siz
 struct Motion {
   std::vector<double> target;  ///< of the motors, rad or m
   double duration = 2;         ///< of each way, s
-  bool keeps_torque = true;    ///< whether the limits of torque hold on it, with a fifth to spare
+  std::vector<std::size_t>
+      overloaded;  ///< motors whose limit of torque it doesn't keep with a fifth to spare
+
+  bool overloads(std::size_t motor) const {
+    return std::find(overloaded.begin(), overloaded.end(), motor) != overloaded.end();
+  }
 };
 
 /// A moderate one within the limits: slower and shorter where torque or velocity want it.
 Motion moderate_motion(const std::shared_ptr<const Scene>& scene, const Robot& robot, const Roles& roles,
                        const std::vector<MotorLimits>& limits);
 
-/// Gains of computed torque, a value a motor: critical damping at the same rate for each motor, the others
-/// free, in the lighter of home and target.
-struct Gains {
-  std::vector<double> kp, kv;
+/// How the motion is controlled and simulated.
+struct Tuning {
+  std::vector<double> kp, kv;  ///< a value a motor: critical damping at the same rate for each, the others
+                               ///< free, in the lighter of home and target
+  int substeps = 1;            ///< of rk4 a tick of 1 ms: what the joints' damping asks for
+  bool lags = false;           ///< whether rates change by that damping within a tick, so that what a tick
+                               ///< measures is no ground to feed it forward from
 };
-Gains moderate_gains(const std::shared_ptr<const Scene>& scene, const Motion& motion);
+Tuning moderate_tuning(const std::shared_ptr<const Scene>& scene, const Robot& robot, const Roles& roles,
+                       const Motion& motion);
 
 /// Which of x, y, z the end effector can be moved along by the motors, at most as many as there are of them.
 std::string free_axes(const std::shared_ptr<const Scene>& scene, const Motion& motion);
