@@ -3,111 +3,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/procedure/singular_mass.hpp"
+#include "import/choices.hpp"
 #include "import/experiment_text.hpp"
 #include "import/inertia.hpp"
 #include "import/motion.hpp"
 #include "import/read_robot.hpp"
 #include "import/scene_text.hpp"
 #include "import/yaml_text.hpp"
-#include "notation/nearest.hpp"
 #include "notation/text_file.hpp"
 #include "notation/utf8.hpp"
 
 namespace mixloop {
 namespace {
-
-constexpr std::size_t kMostMotors = 64;
-
-bool is_free(const Robot::Joint& joint, const std::string& symbol, const ImportOptions& options) {
-  return std::any_of(options.free.begin(), options.free.end(),
-                     [&](const std::string& name) { return name == joint.name || name == symbol; });
-}
-
-void refuse_unknown_free(const Robot& robot, const SceneNames& names, const ImportOptions& options) {
-  std::vector<std::string> known;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j)
-    if (robot.joints[j].moves() && !robot.joints[j].mimic) {
-      known.push_back(robot.joints[j].name);
-      if (names.joints[j] != robot.joints[j].name) known.push_back(names.joints[j]);
-    }
-  for (const std::string& name : options.free)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError("unknown_value", {"--free"},
-                       in_quotes(name) + " is no joint that moves by itself" + suggestion(name, known));
-}
-
-Roles roles_of(const Robot& robot, const SceneNames& names, const ImportOptions& options,
-               const std::string& file) {
-  refuse_unknown_free(robot, names, options);
-  Roles roles;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const auto& joint = robot.joints[j];
-    if (!joint.moves()) continue;
-    auto& role = joint.mimic                                ? roles.mimics
-                 : is_free(joint, names.joints[j], options) ? roles.free
-                                                            : roles.motors;
-    role.push_back(static_cast<int>(j));
-  }
-  if (roles.motors.empty())
-    throw InputError("no_motor", {file},
-                     roles.free.empty()
-                         ? "no joint moves: all are fixed, floating or planar; expected one that is "
-                           "revolute, continuous or prismatic"
-                         : "each joint that moves by itself is --free; expected one with a motor");
-  if (roles.motors.size() + roles.free.size() > kMostMotors)
-    throw InputError("too_large", {file},
-                     fmt::format("{} joints move by themselves; expected {} at most",
-                                 roles.motors.size() + roles.free.size(), kMostMotors));
-  return roles;
-}
-
-/// How many joints move a link.
-int joints_below(const Robot& robot, int link) {
-  int count = 0;
-  for (int j = robot.links[static_cast<std::size_t>(link)].joint; j >= 0;) {
-    const auto& joint = robot.joints[static_cast<std::size_t>(j)];
-    count += joint.moves() ? 1 : 0;
-    j = robot.links[static_cast<std::size_t>(joint.parent)].joint;
-  }
-  return count;
-}
-
-int named_tip(const Robot& robot, const std::string& name) {
-  std::vector<std::string> moved;
-  for (std::size_t i = 0; i < robot.links.size(); ++i)
-    if (joints_below(robot, static_cast<int>(i)) > 0) moved.push_back(robot.links[i].name);
-  const auto found = std::find_if(robot.links.begin(), robot.links.end(),
-                                  [&](const Robot::Link& link) { return link.name == name; });
-  if (found == robot.links.end() || std::find(moved.begin(), moved.end(), name) == moved.end())
-    throw InputError("unknown_value", {"--tip"},
-                     in_quotes(name) +
-                         (found == robot.links.end() ? " is no link" : " is a link that no joint moves") +
-                         suggestion(name, moved));
-  return static_cast<int>(found - robot.links.begin());
-}
-
-/// The links that move and on which nothing hangs.
-std::vector<int> moved_leaves(const Robot& robot) {
-  std::vector<bool> is_leaf(robot.links.size(), true);
-  for (const auto& joint : robot.joints) is_leaf[static_cast<std::size_t>(joint.parent)] = false;
-  std::vector<int> leaves;
-  for (std::size_t i = 0; i < robot.links.size(); ++i)
-    if (is_leaf[i] && joints_below(robot, static_cast<int>(i)) > 0) leaves.push_back(static_cast<int>(i));
-  return leaves;
-}
-
-/// Of them the one that most joints move, of several the first.
-int farthest(const Robot& robot, const std::vector<int>& leaves) {
-  return *std::max_element(leaves.begin(), leaves.end(), [&](int one, int other) {
-    return joints_below(robot, one) < joints_below(robot, other);
-  });
-}
 
 void list_standing_inertias(const Robot& robot, LeftBehind& left) {
   const std::vector<bool> moved = moved_links(robot);
@@ -157,7 +69,7 @@ Imported import_urdf(const std::string& text, const std::string& file, const Imp
   Imported made;
   made.name = file_name_of(options.name.empty() ? robot.name : options.name);
   const SceneNames names = names_in_scene(robot);
-  const Roles roles = roles_of(robot, names, options, file);
+  const Roles roles = roles_of(robot, names, options.free, file);
   check_inertias(robot, options.any_inertia, made.left);
   list_standing_inertias(robot, made.left);
   list_left_behind(xml, robot, made.left);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "import/robot.hpp"
 #include "import/shapes.hpp"
@@ -81,12 +80,9 @@ void list_shapes(const Robot& robot, LeftBehind& left) {
 }  // namespace
 
 void LeftBehind::add(const std::string& what, const std::string& name, const Place& place) {
-  const auto known =
-      std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.what == what; });
-  if (known == kinds_.end())
-    kinds_.push_back({what, {name}, place});
-  else if (std::find(known->names.begin(), known->names.end(), name) == known->names.end())
-    known->names.push_back(name);
+  const auto [known, is_new] = index_.emplace(what, kinds_.size());
+  if (is_new) kinds_.push_back({what, {}, place});
+  if (listed_.emplace(known->second, name).second) kinds_[known->second].names.push_back(name);
 }
 
 std::string text_of(const LeftBehind::Kind& kind) {

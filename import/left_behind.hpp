@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "notation/errors.hpp"
@@ -22,6 +25,8 @@ class LeftBehind {
 
  private:
   std::vector<Kind> kinds_;
+  std::map<std::string, std::size_t> index_;              ///< of a kind by what it is
+  std::set<std::pair<std::size_t, std::string>> listed_;  ///< which names it has
 };
 
 /// "meshes of the links: base, arm"

@@ -7,6 +7,7 @@
 #include "import/rotation.hpp"
 #include "import/shapes.hpp"
 #include "import/yaml_text.hpp"
+#include "notation/utf8.hpp"
 
 namespace mixloop {
 namespace {
@@ -17,7 +18,7 @@ class SceneWriter {
   SceneWriter(const Robot& robot, const SceneNames& names, const Roles& roles)
       : robot_(robot), names_(names), roles_(roles) {}
 
-  void name() { text_ += fmt::format("name: {}\n", yaml_text(robot_.name)); }
+  void name() { text_ += fmt::format("name: {}\n", yaml_text(printable_name(robot_.name))); }
 
   void coordinates() {
     text_ += "\nmotors: " + independent(roles_.motors) + "\n";
