@@ -84,7 +84,7 @@ void read_error_bounds(const Mapping& entry, bool has_path, Expectation& expecta
     if (!bound) continue;
     if (!has_path)
       refuse(bound->place,
-             fmt::format("without a path of the end effector there is no {}; expected bounds on final, energy_drift "
+             fmt::format("without a path there is no {}; expected bounds on final, energy_drift "
                          "or max_torque",
                          known.name));
     const auto values = numbers_of(bound, kLength, 0, known.name);
@@ -99,36 +99,42 @@ void read_error_bounds(const Mapping& entry, bool has_path, Expectation& expecta
 }
 
 /// A bound for each motor.
-void read_motor_bounds(const NodePtr& node, const std::string& name, const Quantity& quantity, const Scene& scene,
-                       Expectation& expectation) {
+void read_motor_bounds(const NodePtr& node, const std::string& name, const Quantity& quantity,
+                       const Scene& scene, Expectation& expectation) {
   const auto items = items_of(node, name);
   if (items.size() != scene.motors().size())
     throw InputError("wrong_size", node->place,
                      fmt::format("{} has {} values; expected {}", name, items.size(), scene.n_u()));
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto& motor = scene.motors()[i];
-    expectation.bounds.push_back({name, static_cast<int>(i), 0.0, number_of(*items[i], quantity.of(motor), name),
-                                  name == kMotorError ? position_unit(motor.linear) : torque_unit(motor.linear)});
+    expectation.bounds.push_back(
+        {name, static_cast<int>(i), 0.0, number_of(*items[i], quantity.of(motor), name),
+         name == kMotorError ? position_unit(motor.linear) : torque_unit(motor.linear)});
     check_bound(expectation.bounds.back(), *items[i]);
   }
 }
 
-void read_motor_error_bounds(const Mapping& entry, const Scene& scene, bool is_of_motors, Expectation& expectation) {
+void read_motor_error_bounds(const Mapping& entry, const Scene& scene, bool is_of_motors,
+                             Expectation& expectation) {
   const NodePtr errors = entry.find(kMotorError);
   if (!errors) return;
   if (!is_of_motors)
-    refuse(errors->place, "max_motor_error is of a path of the motors, and this experiment has none; expected "
-                          "another bound");
+    refuse(errors->place,
+           "max_motor_error is of a path of the motors, and this experiment has none; expected "
+           "another bound");
   read_motor_bounds(errors, kMotorError, kPosition, scene, expectation);
 }
 
-void read_orientation_bound(const Mapping& entry, const Scene& scene, bool has_path, Expectation& expectation) {
+void read_orientation_bound(const Mapping& entry, const Scene& scene, bool has_path,
+                            Expectation& expectation) {
   const NodePtr error = entry.find(kOrientation);
   if (!error) return;
   if (!has_path || !scene.end_effector.is_oriented())
-    refuse(error->place, "nothing prescribes how the end effector is turned; expected end_effector.axes with rx, ry, rz "
-                         "or its direction in the scene, or no max_orientation_error");
-  expectation.bounds.push_back({kOrientation, std::nullopt, 0.0, number_of(*error, kPure, kOrientation), "rad"});
+    refuse(error->place,
+           "nothing prescribes how the end effector is turned; expected end_effector.axes with rx, ry, rz "
+           "or its direction in the scene, or no max_orientation_error");
+  expectation.bounds.push_back(
+      {kOrientation, std::nullopt, 0.0, number_of(*error, kPure, kOrientation), "rad"});
   check_bound(expectation.bounds.back(), *error);
 }
 
@@ -171,8 +177,8 @@ const Keys& expectation_keys() {
                           {"final_position_error", form::numbers()},
                           {"rms_position_error", form::numbers()},
                           {"max_orientation_error", form::number()},
-                         {"max_motor_error", form::numbers()},
-                         {"max_torque", form::numbers()},
+                          {"max_motor_error", form::numbers()},
+                          {"max_torque", form::numbers()},
                           {"final", form::numbers()},
                           {"tolerance", form::numbers()},
                           {"energy_drift", form::number()},
@@ -184,7 +190,8 @@ const Keys& expectation_keys() {
 double Expectation::Bound::value_in(const Measures& measures) const {
   if (name == kFinal) return measures.final_psi ? (*measures.final_psi)[*motor] : kNeverMeasured;
   if (name == kDrift) return measures.energy_drift.value_or(kNeverMeasured);
-  if (name == kMotorError) return measures.max_motor_error ? (*measures.max_motor_error)[*motor] : kNeverMeasured;
+  if (name == kMotorError)
+    return measures.max_motor_error ? (*measures.max_motor_error)[*motor] : kNeverMeasured;
   if (name == kOrientation) return measures.max_orientation_error;
   if (motor) return measures.max_torque[*motor];
   for (const auto& known : kErrors)

@@ -5,8 +5,8 @@
 
 namespace mixloop {
 
-/// How far an end effector is turned away from where the motors' references would turn it, free coordinates at home;
-/// of one with a direction, how far that points elsewhere. Nothing allocates after construction.
+/// How far an end effector is turned away from where the motors' references would turn it, free coordinates
+/// at home; of one with a direction, how far that points elsewhere. Nothing allocates after construction.
 class OrientationError {
  public:
   /// `parameters`: the plant's.

@@ -179,7 +179,8 @@ void Recorder::measure(std::int64_t k, std::span<const double> tau) {
 }
 
 void Recorder::measure_path(std::int64_t k) {
-  for (Eigen::Index i = 0; i < motor_error_.size(); ++i) raise((*measures_.max_motor_error)[i], motor_error_[i]);
+  for (Eigen::Index i = 0; i < motor_error_.size(); ++i)
+    raise((*measures_.max_motor_error)[i], motor_error_[i]);
   if (orientation_)
     raise(measures_.max_orientation_error, orientation_->at(psi(k), span_of(plan_.at(k).psi), time(k)));
   if (!measures_.follows_path) return;

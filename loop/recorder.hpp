@@ -104,8 +104,8 @@ class Recorder {
   std::optional<OrientationError> orientation_;  ///< none: nothing is prescribed
   std::vector<double> motor_error_limit_;        ///< of a path of the motors; empty: none
   Vector motor_error_;                           ///< n_u, of a path of the motors
-  std::optional<Equations::Workspace> energy_;  ///< none: it isn't measured
-  std::optional<Partitions> switched_energy_;   ///< where coordinates are switched
+  std::optional<Equations::Workspace> energy_;   ///< none: it isn't measured
+  std::optional<Partitions> switched_energy_;    ///< where coordinates are switched
   LoopMotion hand_loops_;
   double first_energy_ = 0, largest_energy_ = 0, largest_imbalance_ = 0;  ///< J
   bool energy_begun_ = false, energy_changed_ = false;                    ///< changed: by a fault

@@ -35,13 +35,13 @@ IkOutcome Follower::follow_motors(double step) {
   return IkOutcome::solved;
 }
 
-// Where the motion in hand leads. Of a redundant mechanism the pose is a matter of the way there: by Runge and
-// Kutta's classical step.
+// Where the motion in hand leads. Of a redundant mechanism the pose is a matter of the way there: by Runge
+// and Kutta's classical step.
 Vector Follower::expected(double step) {
   const double dt = time(step) - time(now_.step);
   const auto& [psi, psid, psidd] = now_.motors;
   if (ik_->arm()) return psi;
-  if (!ik_->is_redundant()) return psi + dt * psid + dt * dt / 2 * psidd;
+  if (!ik_->is_redundant()) return psi + (dt * psid + dt * dt / 2 * psidd);
   const auto slope = [&](double part, const Vector& at) {
     const double there = now_.step + part * (step - now_.step);
     Vector rates = Vector::Zero(at.size());
@@ -49,7 +49,8 @@ Vector Follower::expected(double step) {
     return rates;
   };
   const Vector& k1 = psid;
-  const Vector k2 = slope(0.5, psi + dt / 2 * k1), k3 = slope(0.5, psi + dt / 2 * k2), k4 = slope(1, psi + dt * k3);
+  const Vector k2 = slope(0.5, psi + dt / 2 * k1), k3 = slope(0.5, psi + dt / 2 * k2),
+               k4 = slope(1, psi + dt * k3);
   return psi + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 

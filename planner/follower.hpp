@@ -9,7 +9,8 @@ namespace mixloop {
 /// The motors along an itinerary, step by step, each solution the continuation of the one before.
 class Follower {
  public:
-  /// Along a path of the end effector. `delay`: plant time at which the path starts, in steps. Refers to both.
+  /// Along a path of the end effector. `delay`: plant time at which the path starts, in steps. Refers to
+  /// both.
   Follower(InverseKinematics& ik, const Itinerary& itinerary, std::int64_t delay)
       : ik_(&ik), itinerary_(itinerary), delay_(static_cast<double>(delay)) {}
   /// Along one of the motors.

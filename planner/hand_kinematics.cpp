@@ -9,7 +9,8 @@
 namespace mixloop {
 namespace {
 
-constexpr double kNothing = 1e3 * std::numeric_limits<double>::epsilon();  // of what a sum consists of: a sum of nothing
+constexpr double kNothing =
+    1e3 * std::numeric_limits<double>::epsilon();  // of what a sum consists of: a sum of nothing
 
 /// Of the transforms from the ground to the end effector, and the point in its frame; 0 where all of it
 /// varies.
@@ -46,7 +47,11 @@ Vector HandKinematics::moved_at_home() {
   const Scene& scene = *model_.scene;
   const Eigen::Index n_u = home_.size();
   const bool is_oriented = scene.end_effector.is_oriented();
-  const Matrix J = at(home_, rest_, rest_, 0).jacobian;
+  const auto rows = static_cast<Eigen::Index>(scene.end_effector.axes.size());
+  const auto& state = at(home_, rest_, rest_, 0);
+  Matrix J(3, n_u);
+  for (Eigen::Index i = 0; i < rows; ++i)
+    J.row(i) = state.jacobian.row(scene.end_effector.axes[static_cast<std::size_t>(i)]).head(n_u);
   const HandTurns turns = is_oriented ? turns_at(home_, rest_, rest_, 0) : HandTurns();
   const PsiMotion home = with_free_at_home(scene, {home_, {}, {}});
   coordinates<double>(model_, span_of(home.psi), 0.0, ws_);
@@ -59,10 +64,8 @@ Vector HandKinematics::moved_at_home() {
     shares += arm * ws_.C.row(link.coordinate).head(n_u).cwiseAbs().transpose();
   }
   for (Eigen::Index i = 0; i < n_u; ++i) {
-    double squared = 0;
-    for (const int axis : scene.end_effector.axes) squared += J(axis, i) * J(axis, i);
-    if (is_oriented) squared += scale_ * scale_ * turns.jacobian.col(i).squaredNorm();
-    moved[i] = std::sqrt(squared);
+    moved[i] = J.col(i).head(rows).norm();
+    if (is_oriented) moved[i] = std::hypot(moved[i], scale_ * turns.jacobian.col(i).norm());
     if (!(moved[i] > kNothing * shares[i])) moved[i] = 0;
   }
   return moved;
@@ -95,7 +98,8 @@ HandTurns HandKinematics::turns_at(const Vector& psi, const Vector& psid, const 
   }
   rate += out.jacobian * psidd;
   const Eigen::Matrix3d skew = detail::skew_of_vector<double>(spin);
-  rate += detail::vector_of_skew<double>(out.rotation.transpose() * frame.Tdd_bias.leftCols<3>() - skew * skew);
+  rate +=
+      detail::vector_of_skew<double>(out.rotation.transpose() * frame.Tdd_bias.leftCols<3>() - skew * skew);
   out.spin = out.rotation * spin;
   out.spin_rate = out.rotation * rate;
   out.jacobian = (out.rotation * out.jacobian).eval();

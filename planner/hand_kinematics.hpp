@@ -14,8 +14,8 @@ struct HandTurns {
   Eigen::Matrix<double, 3, Eigen::Dynamic> jacobian;    ///< 3 x n_u: d spin / d psid
 };
 
-/// Where the motors bring a scene's end effector while free coordinates rest at home, and what is long and what is
-/// far for them.
+/// Where the motors bring a scene's end effector while free coordinates rest at home, and what is long and
+/// what is far for them.
 class HandKinematics {
  public:
   /// Refers to `model`.
@@ -30,12 +30,12 @@ class HandKinematics {
   /// The motors at home, n_u, and as many zeros.
   const Vector& home() const { return home_; }
   const Vector& rest() const { return rest_; }
-  /// A length typical of the mechanism, m: of the transforms to the end effector, or where all of them vary, of its
-  /// move by a motor's unit.
+  /// A length typical of the mechanism, m: of the transforms to the end effector, or where all of them vary,
+  /// of its move by a motor's unit.
   double scale() const { return scale_; }
-  /// Of each motor, the move that takes the end effector, at home, about as far as that (where it takes it nowhere,
-  /// 1 rad or that length): the measure of what is near in the motors' space. An oriented one is taken as far by
-  /// turning by 1 rad.
+  /// Of each motor, the move that takes the end effector, at home, about as far as that (where it takes it
+  /// nowhere, 1 rad or that length): the measure of what is near in the motors' space. An oriented one is
+  /// taken as far by turning by 1 rad.
   const Vector& motor_scale() const { return motor_scale_; }
 
  private:

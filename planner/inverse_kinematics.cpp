@@ -17,23 +17,53 @@ constexpr double kFarthestStart = 4;  // in motor scales: about a half turn of a
 constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
 constexpr double kStraight = 1e-3;  // of a way: how far the end effector may be off it
 
+/// A system of up to three equations, filled up by x_i = 0 to three, which Eigen unrolls.
+bool is_small(const Matrix& A) { return A.rows() == A.cols() && A.rows() <= 3; }
+Eigen::Matrix3d filled(const Matrix& A) {
+  Eigen::Matrix3d three = Eigen::Matrix3d::Identity();
+  three.topLeftCorner(A.rows(), A.cols()) = A;
+  return three;
+}
+Eigen::Vector3d filled(const Vector& x, double rest) {
+  Eigen::Vector3d three = Eigen::Vector3d::Constant(rest);
+  three.head(x.size()) = x;
+  return three;
+}
+
+class SquareSolution {
+ public:
+  explicit SquareSolution(const Matrix& A) : size_(A.rows()) {
+    if (is_small(A))
+      small_.compute(filled(A));
+    else
+      large_.compute(A);
+  }
+  Vector solve(const Vector& b) const {
+    if (size_ > 3) return large_.solve(b);
+    const Eigen::Vector3d x = small_.solve(filled(b, 0));
+    return x.head(size_);
+  }
+
+ private:
+  Eigen::Index size_;
+  Eigen::PartialPivLU<Eigen::Matrix3d> small_;
+  Eigen::PartialPivLU<Matrix> large_;
+};
+
 /// The x with J x = b: of a square J by its LU; of a wide one the least x in units of `scale`.
 class LeastSolution {
  public:
-  LeastSolution(const Matrix& J, const Vector& scale) : J_(J) {
-    if (J.rows() == J.cols()) {
-      lu_.compute(J);
-      return;
-    }
-    weighted_ = scale.cwiseAbs2().asDiagonal() * J.transpose();
-    lu_.compute(J * weighted_);
-  }
-  Vector solve(const Vector& b) const {
-    return is_square() ? Vector(lu_.solve(b)) : Vector(weighted_ * lu_.solve(b));
-  }
+  LeastSolution(const Matrix& J, const Vector& scale)
+      : J_(J),
+        weighted_(scale.cwiseAbs2().asDiagonal() * J.transpose()),
+        square_(is_square() ? J : Matrix(J * weighted_)) {}
+
   bool is_square() const { return J_.rows() == J_.cols(); }
+  Vector solve(const Vector& b) const {
+    return is_square() ? square_.solve(b) : Vector(weighted_ * square_.solve(b));
+  }
   /// Of a wide J: with x = scale^2 J^T lambda.
-  Vector multipliers(const Vector& b) const { return lu_.solve(b); }
+  Vector multipliers(const Vector& b) const { return square_.solve(b); }
   /// Of a wide J: what a change of J^T lambda by `turned` changes of x, J x unchanged.
   Vector across(const Vector& turned, const Vector& scale) const {
     const Vector x = scale.cwiseAbs2().cwiseProduct(turned);
@@ -42,18 +72,28 @@ class LeastSolution {
 
  private:
   Matrix J_, weighted_;
-  Eigen::PartialPivLU<Matrix> lu_;
+  SquareSolution square_;
 };
 
 /// Marquardt's step (J^T J + damping diag(J^T J)) x = J^T error (SIAM J. 11, 1963), worked out in units of
-/// `scale`; undamped, Newton's.
-Vector damped_step(const Matrix& J, const Vector& error, double damping, const Vector& scale) {
-  if (damping == 0) return LeastSolution(J, scale).solve(error);
-  const Matrix scaled = J * scale.asDiagonal();
-  Matrix A = scaled.transpose() * scaled;
-  const double least = 1e-12 * A.diagonal().maxCoeff();
+/// `scale`. Of the unknowns the first `count` are some.
+template <class Square, class Column>
+Column marquardt_step(const Square& J, const Column& error, double damping, const Column& scale,
+                      Eigen::Index count) {
+  const Square scaled = J * scale.asDiagonal();
+  Square A = scaled.transpose() * scaled;
+  const double least = 1e-12 * A.diagonal().head(count).maxCoeff();
   for (Eigen::Index i = 0; i < A.rows(); ++i) A(i, i) += damping * std::max(A(i, i), least);
   return scale.cwiseProduct(A.partialPivLu().solve(scaled.transpose() * error));
+}
+
+/// Marquardt's step; undamped, Newton's.
+Vector damped_step(const Matrix& J, const Vector& error, double damping, const Vector& scale) {
+  if (damping == 0) return LeastSolution(J, scale).solve(error);
+  if (!is_small(J)) return marquardt_step<Matrix, Vector>(J, error, damping, scale, scale.size());
+  return marquardt_step<Eigen::Matrix3d, Eigen::Vector3d>(filled(J), filled(error, 0), damping,
+                                                          filled(scale, 1), scale.size())
+      .head(scale.size());
 }
 
 /// The angle that differs from `angle` by whole turns and is nearest to `other`.
@@ -68,18 +108,20 @@ void require_enough(const Scene& scene, const Prescription& prescription,
   if (active == rows || (active > rows && redundancy.least_norm)) return;
   std::string motors = fmt::format("{} motor{}", scene.n_u(), scene.n_u() == 1 ? "" : "s");
   if (!redundancy.held.empty()) motors += fmt::format(", {} of them held", redundancy.held.size());
-  const std::string what = fmt::format("the path prescribes {}, and the scene '{}' has {}", prescription.text(),
-                                       scene.name, motors);
+  const std::string what = fmt::format("the path prescribes {}, and the scene '{}' has {}",
+                                       prescription.text(), scene.name, motors);
   const Place place{scene.transforms.front().place.file};
   if (active < rows)
-    throw InputError("no_inverse", place,
-                     fmt::format("{}: too few, by {}; expected as many motors as numbers: fewer end_effector axes, "
-                                 "or a path of the motors",
-                                 what, rows - active));
-  throw InputError("no_inverse", place,
-                   fmt::format("{}: {} more than it says how to move; expected `hold: [...]` with {} in the path, "
-                               "or `redundancy: least_norm`, or more end_effector axes",
-                               what, active - rows, active - rows == 1 ? "a motor" : "so many"));
+    throw InputError(
+        "no_inverse", place,
+        fmt::format("{}: too few, by {}; expected as many motors as numbers: fewer end_effector axes, "
+                    "or a path of the motors",
+                    what, rows - active));
+  throw InputError(
+      "no_inverse", place,
+      fmt::format("{}: {} more than it says how to move; expected `hold: [...]` with {} in the path, "
+                  "or `redundancy: least_norm`, or more end_effector axes",
+                  what, active - rows, active - rows == 1 ? "a motor" : "so many"));
 }
 
 }  // namespace
@@ -94,7 +136,8 @@ InverseKinematics::InverseKinematics(const Model<double>& model, Method method, 
 // By the motors' angles at home: what a search winds up beyond them resolves nothing.
 double InverseKinematics::resolution(const PathPoint& point) const {
   double squared = 0;
-  for (const int axis : hand_.model().scene->end_effector.axes) squared += point.position[axis] * point.position[axis];
+  for (const int axis : hand_.model().scene->end_effector.axes)
+    squared += point.position[axis] * point.position[axis];
   const double turned = hand_.model().scene->end_effector.is_oriented() ? hand_.scale() : 0;
   return 4 * kRoundOff *
          (std::sqrt(squared) + turned +
@@ -126,8 +169,8 @@ IkOutcome InverseKinematics::closed_form_rates(const PathPoint& point, Vector& p
 
 // A fine drive and a long slide have far to go, and where the end effector follows the step all along,
 // nothing winds up.
-bool InverseKinematics::leads_straight(const PathPoint& point, double t, const Vector& psi, const Vector& step,
-                                       const Vector& error) {
+bool InverseKinematics::leads_straight(const PathPoint& point, double t, const Vector& psi,
+                                       const Vector& step, const Vector& error) {
   for (const double part : {0.25, 0.5, 1.0}) {
     const Vector left = prescription_.miss(point, t, psi + part * step).error;
     if (!((left - (1 - part) * error).norm() <= kStraight * error.norm())) return false;
@@ -147,8 +190,9 @@ IkOutcome InverseKinematics::position(const PathPoint& point, double t, Vector& 
     const Vector trial = psi + step;
     // Longer steps would wind the motors up.
     const double length = step.cwiseQuotient(hand_.motor_scale()).norm();
-    const bool sound = step.allFinite() &&
-                       (length <= 0.5 || (length <= farthest && leads_straight(point, t, psi, step, miss.error)));
+    const bool sound =
+        step.allFinite() &&
+        (length <= 0.5 || (length <= farthest && leads_straight(point, t, psi, step, miss.error)));
     const double distance = miss.error.norm();
     // What Newton's method still has to go is quadratically small in the step (next to a singular pose a
     // small distance may take a long one): this step ends it.
@@ -169,7 +213,7 @@ IkOutcome InverseKinematics::position(const PathPoint& point, double t, Vector& 
     }
   }
   return miss.error.norm() <= std::max(1e-12 * scale(), resolution(point)) ? IkOutcome::solved
-                                                                          : IkOutcome::out_of_reach;
+                                                                           : IkOutcome::out_of_reach;
 }
 
 IkOutcome InverseKinematics::position_from_home(const PathPoint& point, double t, Vector& psi,
@@ -216,8 +260,8 @@ IkOutcome InverseKinematics::position_from_home(const PathPoint& point, double t
 IkOutcome InverseKinematics::velocity(const PathPoint& point, double t, const Vector& psi, Vector& psid) {
   Vector psidd;
   if (arm_) return closed_form_rates(point, psid, psidd);
-  const LeastSolution J(prescription_.miss(point, t, psi).jacobian, active_scale());
-  psid = prescription_.on_all(J.solve(prescription_.rate_to(point, t, psi)));
+  const Prescription::Miss now = prescription_.miss(point, t, psi);
+  psid = prescription_.on_all(LeastSolution(now.jacobian, active_scale()).solve(now.rate));
   return psid.allFinite() ? IkOutcome::solved : IkOutcome::singular;
 }
 
@@ -225,14 +269,15 @@ IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vecto
                                    Vector& psidd) {
   if (arm_) return closed_form_rates(point, psid, psidd);
   const Vector scale = active_scale();
-  const LeastSolution J(prescription_.miss(point, t, psi).jacobian, scale);
-  const Vector rate = prescription_.rate_to(point, t, psi);
-  psid = prescription_.on_all(J.solve(rate));
+  const Prescription::Miss now = prescription_.miss(point, t, psi);
+  const LeastSolution J(now.jacobian, scale);
+  psid = prescription_.on_all(J.solve(now.rate));
   if (!psid.allFinite()) return IkOutcome::singular;
   Vector moved = J.solve(prescription_.acceleration_to(point, t, psi, psid));
-  // d/dt (scale^2 J^T lambda): the least acceleration, and along the motors' freedom the rate of the least velocity.
+  // d/dt (scale^2 J^T lambda): the least acceleration, and along the motors' freedom the rate of the least
+  // velocity.
   if (!J.is_square())
-    moved += J.across(prescription_.turning_back(point, t, psi, psid, J.multipliers(rate)), scale);
+    moved += J.across(prescription_.turning_back(point, t, psi, psid, J.multipliers(now.rate)), scale);
   psidd = prescription_.on_all(moved);
   return psidd.allFinite() ? IkOutcome::solved : IkOutcome::singular;
 }

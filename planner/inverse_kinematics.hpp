@@ -19,10 +19,10 @@ enum class IkOutcome {
 };
 
 /// From a desired motion of the end effector to that of the motors. Closed form for the paper's family
-/// (ThreeAxisArm), else Newton's method by the exact Jacobian, damped where it has to be. The branch is the one of
-/// the scene's home, where free coordinates stay, and motors that are held. Where more motors may move than numbers
-/// are prescribed, their velocity is the least of those that serve, each in units of its `motor_scale`: a pose then
-/// is a matter of the way there.
+/// (ThreeAxisArm), else Newton's method by the exact Jacobian, damped where it has to be. The branch is the
+/// one of the scene's home, where free coordinates stay, and motors that are held. Where more motors may move
+/// than numbers are prescribed, their velocity is the least of those that serve, each in units of its
+/// `motor_scale`: a pose then is a matter of the way there.
 class InverseKinematics {
  public:
   enum class Method { closed_form_if_known, newton };
@@ -43,14 +43,14 @@ class InverseKinematics {
   /// The arm whose closed form is used, or nothing.
   const std::optional<ThreeAxisArm>& arm() const { return arm_; }
   bool is_redundant() const { return prescription_.active() > prescription_.rows(); }
-  const HandKinematics& hand() const { return hand_; }
+  HandKinematics& hand() { return hand_; }
   Prescription& prescription() { return prescription_; }
   double scale() const { return hand_.scale(); }
   const Vector& motor_scale() const { return hand_.motor_scale(); }
 
-  /// The psi that bring the end effector to `point` (of it, what is prescribed counts) at time t, to round-off.
-  /// `psi`: a solution or guess nearby, of which the new one is the continuation; where the search fails,
-  /// the nearest that it found.
+  /// The psi that bring the end effector to `point` (of it, what is prescribed counts) at time t, to
+  /// round-off. `psi`: a solution or guess nearby, of which the new one is the continuation; where the search
+  /// fails, the nearest that it found.
   IkOutcome position(const PathPoint& point, double t, Vector& psi);
   IkOutcome position(const Eigen::Vector3d& point, double t, Vector& psi) {
     return position(PathPoint{.position = point}, t, psi);
@@ -58,12 +58,14 @@ class InverseKinematics {
 
   /// The same from home: of the solutions on home's branch that `accepts` too, the one nearest to home.
   IkOutcome position_from_home(const PathPoint& point, double t, Vector& psi, const Accepts& accepts = {});
-  IkOutcome position_from_home(const Eigen::Vector3d& point, double t, Vector& psi, const Accepts& accepts = {}) {
+  IkOutcome position_from_home(const Eigen::Vector3d& point, double t, Vector& psi,
+                               const Accepts& accepts = {}) {
     return position_from_home(PathPoint{.position = point}, t, psi, accepts);
   }
 
   /// psid and psidd that go with a path's velocity and acceleration, at the psi of its position:
-  /// J psid = v - E_t, J psidd = a - (E'' where psidd = 0); of a redundant scene psid the least and psidd its rate.
+  /// J psid = v - E_t, J psidd = a - (E'' where psidd = 0); of a redundant scene psid the least and psidd its
+  /// rate.
   IkOutcome rates(const PathPoint& point, double t, const Vector& psi, Vector& psid, Vector& psidd);
   /// psid alone.
   IkOutcome velocity(const PathPoint& point, double t, const Vector& psi, Vector& psid);
@@ -74,7 +76,8 @@ class InverseKinematics {
     return hand_.at(psi, psid, psidd, t);
   }
 
-  /// How far the end effector at psi is from `point` in what is prescribed, m; angles by the mechanism's scale.
+  /// How far the end effector at psi is from `point` in what is prescribed, m; angles by the mechanism's
+  /// scale.
   double miss(const PathPoint& point, double t, const Vector& psi) {
     return prescription_.miss(point, t, psi).error.norm();
   }

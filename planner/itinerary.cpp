@@ -65,7 +65,8 @@ bool Itinerary::Stretch::is_rest() const {
 void Itinerary::add(std::int64_t count, const Path::Via& from, const Path::Via& to, const Place& place) {
   const std::int64_t first = stretches_.empty() ? 0 : lap_steps();
   if (first + count > kMostSteps) refuse_length(place, "the path");
-  stretches_.push_back({first, count, from, to, rotation_vector(to.rotation * from.rotation.transpose()), place});
+  stretches_.push_back(
+      {first, count, from, to, rotation_vector(to.rotation * from.rotation.transpose()), place});
 }
 
 Itinerary::Within Itinerary::within(double step) const {
@@ -124,8 +125,8 @@ std::string Itinerary::describe(double step) const {
     here.motors = motors_at(step).psi;
   else
     here.point = at(step).position;
-  return fmt::format("{:.4g} of the line from {} to {}{}, at {}{}{}", cycloid(x, 1, 1).s, to_text(stretch.from),
-                     to_text(stretch.to), unit, to_text(here), unit, lap);
+  return fmt::format("{:.4g} of the line from {} to {}{}, at {}{}{}", cycloid(x, 1, 1).s,
+                     to_text(stretch.from), to_text(stretch.to), unit, to_text(here), unit, lap);
 }
 
 const Place& Itinerary::place(double step) const { return within(step).stretch.place; }

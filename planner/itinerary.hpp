@@ -51,9 +51,7 @@ class Itinerary {
   };
   Within within(double step) const;
   void add(std::int64_t count, const Path::Via& from, const Path::Via& to, const Place& place);
-  double duration_of(const Stretch& stretch) const {
-    return static_cast<double>(stretch.count) / step_rate_;
-  }
+  double duration_of(const Stretch& stretch) const { return static_cast<double>(stretch.count) / step_rate_; }
   std::string to_text(const Path::Via& point) const;
   std::string to_text(const Eigen::Vector3d& point) const;
 

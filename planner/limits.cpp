@@ -37,8 +37,9 @@ LimitCheck::LimitCheck(const Model<double>& model, const PlanLimits& limits)
   require_each(limits.position, n_u, "position");
   for (const auto& [least, most] : limits.position)
     if (!(least < most))
-      throw InputError("out_of_range", {},
-                       fmt::format("a position limit from {:g} to {:g}; expected the lower one first", least, most));
+      throw InputError(
+          "out_of_range", {},
+          fmt::format("a position limit from {:g} to {:g}; expected the lower one first", least, most));
 }
 
 void LimitCheck::look(std::int64_t step, const Reference& reference, double t) {
@@ -67,9 +68,10 @@ void LimitCheck::compare_position(std::int64_t step, std::size_t motor, double v
   const double ratio = 1 + std::max(least - value, value - most) / (most - least);
   if (ratio <= (worst_ ? worst_->ratio : 1 + kSlack)) return;
   const Scene::Independent& limited = model_.scene->motors()[motor];
-  worst_ = Excess{step, ratio,
-                  fmt::format("the motor {} would stand at {:.6g} {unit}; its limits are {:.6g} to {:.6g} {unit}",
-                              limited.name, value, least, most, fmt::arg("unit", limited.linear ? "m" : "rad"))};
+  worst_ =
+      Excess{step, ratio,
+             fmt::format("the motor {} would stand at {:.6g} {unit}; its limits are {:.6g} to {:.6g} {unit}",
+                         limited.name, value, least, most, fmt::arg("unit", limited.linear ? "m" : "rad"))};
 }
 
 void LimitCheck::compare(std::int64_t step, std::size_t motor, double value, double limit, bool torque) {

@@ -35,7 +35,8 @@ Eigen::Matrix3d rotation_at(const Path::Via& via, const Eigen::Matrix3d& before,
 }  // namespace
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& roll_pitch_yaw) {
-  return turn_about(2, roll_pitch_yaw[2]) * turn_about(1, roll_pitch_yaw[1]) * turn_about(0, roll_pitch_yaw[0]);
+  return turn_about(2, roll_pitch_yaw[2]) * turn_about(1, roll_pitch_yaw[1]) *
+         turn_about(0, roll_pitch_yaw[0]);
 }
 
 Eigen::Matrix3d shortest_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -74,9 +75,10 @@ Path oriented(Path path, HandKinematics& hand) {
   for (Path::Via& via : path.vias) {
     via.rotation = rotation_at(via, *before, home, end_effector);
     if (before != &home && rotation_vector(via.rotation * before->transpose()).norm() > kHalfTurn)
-      throw InputError("out_of_range", via.place,
-                       "the end effector is to turn by half a turn on the line that leads here, and may do so either "
-                       "way round; expected a via point between");
+      throw InputError(
+          "out_of_range", via.place,
+          "the end effector is to turn by half a turn on the line that leads here, and may do so either "
+          "way round; expected a via point between");
     before = &via.rotation;
   }
   return path;

@@ -49,9 +49,10 @@ Path::Via read_point(const NodePtr& node, const Scene& scene, const std::string&
   }
   const auto items = items_of(node, what);
   if (items.size() != axes.size() + turns.size())
-    throw InputError("wrong_size", node->place,
-                     fmt::format("found {}; expected {}, a list of {}: {} of place, then {} of turning",
-                                 describe(*node), what, axes.size() + turns.size(), axes.size(), turns.size()));
+    throw InputError(
+        "wrong_size", node->place,
+        fmt::format("found {}; expected {}, a list of {}: {} of place, then {} of turning", describe(*node),
+                    what, axes.size() + turns.size(), axes.size(), turns.size()));
   for (std::size_t i = 0; i < axes.size(); ++i) via.point[axes[i]] = number_of(*items[i], kLength, what);
   for (std::size_t i = 0; i < turns.size(); ++i)
     via.turns[static_cast<Eigen::Index>(i)] = number_of(*items[axes.size() + i], kPure, what);
@@ -60,9 +61,10 @@ Path::Via read_point(const NodePtr& node, const Scene& scene, const std::string&
 
 Eigen::Vector3d read_direction(const NodePtr& node, const Scene& scene) {
   if (!scene.end_effector.direction)
-    throw InputError("unknown_key", node->place,
-                     "the scene's end effector has no 'direction' of its own, so nothing points anywhere; expected "
-                     "one there, or none here");
+    throw InputError(
+        "unknown_key", node->place,
+        "the scene's end effector has no 'direction' of its own, so nothing points anywhere; expected "
+        "one there, or none here");
   const std::vector<double> values = numbers_of(node, kPure, 3, "the direction");
   const Eigen::Vector3d direction(values[0], values[1], values[2]);
   if (!(direction.norm() > 0))
@@ -137,7 +139,8 @@ void read_held(const NodePtr& node, const Scene& scene, Path& path) {
   for (const auto& item : items_of(node, "the motors that are held")) {
     const int motor = static_cast<int>(word_of(*item, names, "a motor"));
     if (std::ranges::count(path.held, motor) > 0)
-      throw InputError("doubly_defined", item->place, "the motor " + in_quotes(item->text) + " is held twice");
+      throw InputError("doubly_defined", item->place,
+                       "the motor " + in_quotes(item->text) + " is held twice");
     path.held.push_back(motor);
   }
 }
@@ -147,8 +150,9 @@ void read_way(const Mapping& entry, const Scene& scene, Path& path) {
   if (path.is_of_motors()) {
     for (const char* key : {"direction", "hold", "redundancy"})
       if (const NodePtr found = entry.find(key))
-        throw InputError("unknown_key", found->place,
-                         fmt::format("'{}' is of a path of the end effector, and this one is of the motors", key));
+        throw InputError(
+            "unknown_key", found->place,
+            fmt::format("'{}' is of a path of the end effector, and this one is of the motors", key));
     return;
   }
   if (const NodePtr direction = entry.find("direction")) {
@@ -198,10 +202,10 @@ Path read_path(const NodePtr& node, const Scene& scene) {
   const Mapping entry = read_mapping(node, path_keys());
   const std::string_view kind = only_kind_of(entry);
   if (!scene.end_effector.named && kind != "motors")
-    throw InputError(
-        "missing_key", node->place,
-        "the scene names no end_effector, so nothing follows a path; expected one, a path of the `motors`, or "
-        "`duration` in place of the path");
+    throw InputError("missing_key", node->place,
+                     "the scene names no end_effector, so nothing follows a path; expected one, a path of "
+                     "the `motors`, or "
+                     "`duration` in place of the path");
   Path path;
   path.axes = scene.end_effector.axes;
   path.place = node->place;

@@ -50,7 +50,7 @@ PlanMaker::PlanMaker(const Model<double>& model, const Path& path, const Plan::S
       width_(static_cast<std::int64_t>(settings.within.size())),
       itinerary_(path_, settings.rate_hz, settings.stages_per_tick),
       ik_(inverse_of(model, path_)),
-      measures_(model, hand_.motor_scale(), ik_ ? &ik_->prescription() : nullptr),
+      measures_(model, hand_.motor_scale(), ik_ ? std::optional(path_.held) : std::nullopt),
       refusal_(path_, itinerary_, ik(), measures_),
       timed_(constraints_depend_on_time(*model.scene)),
       timed_loads_(loads_depend_on_time(*model.scene) && !settings.limits.torque.empty()) {}
@@ -95,7 +95,7 @@ void PlanMaker::write(const Follower::Motion& motion, double t, std::span<double
     for (Eigen::Vector3d* nowhere : {&E.position, &E.velocity, &E.acceleration})
       nowhere->setConstant(std::numeric_limits<double>::quiet_NaN());
   } else if (axes.size() < 3) {
-    const auto& state = hand_.at(psi, psid, psidd, t);
+    const auto& state = hand().at(psi, psid, psidd, t);
     for (int i = 0; i < 3; ++i) {
       if (std::find(axes.begin(), axes.end(), i) != axes.end()) continue;
       E.position[i] = state.position[i];
@@ -185,7 +185,8 @@ void PlanMaker::check_limits(Plan& plan, std::int64_t delay) {
 
 std::int64_t PlanMaker::approach_ticks(Plan& plan, const Vector& move) {
   const Reference start = reference_in(row(plan, 0), plan.n_u_);
-  if ((move.cwiseAbs() - 1e-12 * hand_.motor_scale().cwiseMax(start.psi.cwiseAbs())).maxCoeff() <= 0) return 0;
+  if ((move.cwiseAbs() - 1e-12 * hand_.motor_scale().cwiseMax(start.psi.cwiseAbs())).maxCoeff() <= 0)
+    return 0;
   if (path_.approach) return ticks_of(*path_.approach, settings_.rate_hz, path_.place, "the approach");
   const Vector fastest = settings_.limits.velocity.empty()
                              ? fastest_on_path(plan)
@@ -228,7 +229,7 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   const auto fill = [&](double step, std::int64_t index) {
     const double t = step / rate;
     Follower::Motion motion{0, {}, at(step)};
-    const auto& E = hand_.at(motion.motors.psi, motion.motors.psid, motion.motors.psidd, t);
+    const auto& E = hand().at(motion.motors.psi, motion.motors.psid, motion.motors.psidd, t);
     if (!E.acceleration.allFinite()) refusal_.not_closed_before(step, move.duration());
     motion.desired = {E.position, E.velocity, E.acceleration};
     write(motion, t, row(plan, index));

@@ -35,6 +35,7 @@ class PlanMaker {
   void rest_past_the_end(Plan& plan);
 
   InverseKinematics* ik() { return ik_.get(); }
+  HandKinematics& hand() { return ik_ ? ik_->hand() : hand_; }
 
   const Model<double>& model_;
   HandKinematics hand_;

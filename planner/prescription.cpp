@@ -12,8 +12,8 @@
 namespace mixloop {
 namespace {
 
-constexpr double kNoTurn = 1e-9;     // of a turn: rounding
-constexpr int kLookedAt = 5;         // poses about home
+constexpr double kNoTurn = 1e-9;      // of a turn: rounding
+constexpr int kLookedAt = 5;          // poses about home
 constexpr double kTurnedAbout = 0.3;  // in motor scales
 
 Eigen::Vector3d axis_of(const Scene::EndEffector& end_effector) {
@@ -42,10 +42,11 @@ void Prescription::require_turns_about(int axis) {
     if (!J.allFinite()) continue;  // closures end on the way there
     for (int other = 0; other < 3; ++other)
       if (other != axis && J.row(other).norm() > kNoTurn * J.norm())
-        throw InputError("other_turns", hand_.model().scene->transforms.front().place,
-                         fmt::format("the end effector's axes name its turn about {} alone, and it turns about {} "
-                                     "too; expected rx, ry, rz, or its 'direction'",
-                                     "xyz"[axis], "xyz"[other]));
+        throw InputError(
+            "other_turns", hand_.model().scene->transforms.front().place,
+            fmt::format("the end effector's axes name its turn about {} alone, and it turns about {} "
+                        "too; expected rx, ry, rz, or its 'direction'",
+                        "xyz"[axis], "xyz"[other]));
   }
 }
 
@@ -84,10 +85,12 @@ Matrix Prescription::turning_rows(const Eigen::Matrix3d& rotation) const {
 }
 
 Prescription::Miss Prescription::miss(const PathPoint& point, double t, const Vector& psi) {
-  Miss out{Vector(rows_), Matrix(rows_, active()), 0, 0};
-  const auto fill = [&](Eigen::Index row, auto values, double error) {
+  Miss out{Vector(rows_), Matrix(rows_, active()), Vector(rows_), 0, 0};
+  const auto fill = [&](Eigen::Index row, auto values, double error, double rate) {
     out.error[row] = error;
-    for (std::size_t j = 0; j < active_.size(); ++j) out.jacobian(row, static_cast<Eigen::Index>(j)) = values[active_[j]];
+    out.rate[row] = rate;
+    for (std::size_t j = 0; j < active_.size(); ++j)
+      out.jacobian(row, static_cast<Eigen::Index>(j)) = values[active_[j]];
   };
   if (turning_ > 0) {
     const HandTurns turns = hand_.turns_at(psi, hand_.rest(), hand_.rest(), t);
@@ -98,14 +101,15 @@ Prescription::Miss Prescription::miss(const PathPoint& point, double t, const Ve
       turn = shortest_turn(turns.rotation * axis, point.rotation * axis);
     }
     const Eigen::Vector3d missing = rotation_vector(turn);
-    const Vector error = rows * missing;
+    const Vector error = rows * missing, rate = rows * (point.spin - turns.spin);
     out.angle = error.norm() / hand_.scale();
-    for (Eigen::Index i = 0; i < turning_; ++i) fill(rows_ - turning_ + i, J.row(i), error[i]);
+    for (Eigen::Index i = 0; i < turning_; ++i) fill(rows_ - turning_ + i, J.row(i), error[i], rate[i]);
   }
   const auto& state = hand_.at(psi, hand_.rest(), hand_.rest(), t);
   Eigen::Index row = 0;
   for (const int axis : end_effector_.axes) {
-    fill(row, state.jacobian.row(axis), point.position[axis] - state.position[axis]);
+    fill(row, state.jacobian.row(axis), point.position[axis] - state.position[axis],
+         point.velocity[axis] - state.velocity[axis]);
     ++row;
   }
   out.place = out.error.head(row).norm();
@@ -132,24 +136,14 @@ std::string Prescription::text_of_lost(double t, const Vector& psi, const Vector
   along.cwiseAbs().maxCoeff(&most);
   if (along[most] < 0) along = -along;
   for (double& part : along) part = std::round(part * 1000) / 1000 + 0.0;
-  return fmt::format("it can't {} ({:g}, {:g}, {:g})", moves ? "move along" : "turn about", along[0], along[1],
-                     along[2]);
+  return fmt::format("it can't {} ({:g}, {:g}, {:g})", moves ? "move along" : "turn about", along[0],
+                     along[1], along[2]);
 }
 
-Vector Prescription::rate_to(const PathPoint& point, double t, const Vector& psi) {
-  Vector out(rows_);
-  if (turning_ > 0)
-    out.tail(turning_) =
-        turning_rows(point.rotation) * (point.spin - hand_.turns_at(psi, hand_.rest(), hand_.rest(), t).spin);
-  const auto& drift = hand_.at(psi, hand_.rest(), hand_.rest(), t);
-  Eigen::Index row = 0;
-  for (const int axis : end_effector_.axes) out[row++] = point.velocity[axis] - drift.velocity[axis];
-  return out;
-}
-
-// A direction d accelerates by alpha x d + omega x (omega x d): beside what is across d in alpha, the spin about d,
-// which is free, counts.
-Vector Prescription::acceleration_to(const PathPoint& point, double t, const Vector& psi, const Vector& psid) {
+// A direction d accelerates by alpha x d + omega x (omega x d): beside what is across d in alpha, the spin
+// about d, which is free, counts.
+Vector Prescription::acceleration_to(const PathPoint& point, double t, const Vector& psi,
+                                     const Vector& psid) {
   Vector out(rows_);
   if (turning_ > 0) {
     const HandTurns turns = hand_.turns_at(psi, psid, hand_.rest(), t);
@@ -166,9 +160,9 @@ Vector Prescription::acceleration_to(const PathPoint& point, double t, const Vec
   return out;
 }
 
-// Accelerations at psidd = 0 are quadratic in psid: half their slope by psid_j is column j of the Jacobian's rate,
-// and exact as a difference; of a turn it is the part that is symmetric in the motors, and the rest of it is half the
-// product of the angular velocities (d_k w_j - d_j w_k = w_k x w_j).
+// Accelerations at psidd = 0 are quadratic in psid: half their slope by psid_j is column j of the Jacobian's
+// rate, and exact as a difference; of a turn it is the part that is symmetric in the motors, and the rest of
+// it is half the product of the angular velocities (d_k w_j - d_j w_k = w_k x w_j).
 Vector Prescription::turning_back(const PathPoint& point, double t, const Vector& psi, const Vector& psid,
                                   const Vector& lambda) {
   Eigen::Vector3d on_place = Eigen::Vector3d::Zero(), on_turn = Eigen::Vector3d::Zero(), on_columns = on_turn;

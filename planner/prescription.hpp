@@ -8,12 +8,13 @@
 
 namespace mixloop {
 
-/// What a path prescribes of the end effector, as equations for the motors that may move: its place on the scene's
-/// axes; then how it is turned, or where it points, where an angle counts as a length by the mechanism's scale.
+/// What a path prescribes of the end effector, as equations for the motors that may move: its place on the
+/// scene's axes; then how it is turned, or where it points, where an angle counts as a length by the
+/// mechanism's scale.
 class Prescription {
  public:
-  /// `held`: motors that stay at home. Throws InputError("other_turns") where the end effector turns about other axes
-  /// than the one that the scene names. Refers to `hand`.
+  /// `held`: motors that stay at home. Throws InputError("other_turns") where the end effector turns about
+  /// other axes than the one that the scene names. Refers to `hand`.
   Prescription(HandKinematics& hand, const std::vector<int>& held);
 
   Eigen::Index rows() const { return rows_; }
@@ -22,10 +23,12 @@ class Prescription {
   /// "3 numbers of the end effector (x, y, z)".
   std::string text() const;
 
-  /// What a pose lacks.
+  /// What a pose lacks. Of one evaluation: where closures are solved the next starts from its solution, and
+  /// bits are a matter of how often that was.
   struct Miss {
     Vector error;      ///< rows, m: the length of `jacobian` times the move that is missing
     Matrix jacobian;   ///< rows x active
+    Vector rate;       ///< rows, m/s: what psid has to bring the end effector
     double place = 0;  ///< of the place alone, m
     double angle = 0;  ///< of the turn alone, rad
   };
@@ -34,9 +37,7 @@ class Prescription {
   Matrix jacobian(double t, const Vector& psi);
   /// "it can't move along (0, 0, 1)": of a move that no motors make, rows.
   std::string text_of_lost(double t, const Vector& psi, const Vector& move);
-  /// What psid has to bring the end effector: rows, m/s.
-  Vector rate_to(const PathPoint& point, double t, const Vector& psi);
-  /// And psidd beside psid: rows, m/s^2.
+  /// What psidd has to bring beside psid: rows, m/s^2.
   Vector acceleration_to(const PathPoint& point, double t, const Vector& psi, const Vector& psid);
   /// d/dt (jacobian^T) lambda along psid, for `lambda` (rows), whose rows turn with the direction: active.
   Vector turning_back(const PathPoint& point, double t, const Vector& psi, const Vector& psid,

@@ -114,7 +114,8 @@ void Refusal::no_way(Follower& follower, double step) const {
 /// How far the point of a step is out of reach, m; 0 within it. `nearby`: motors to start a search from.
 double Refusal::out_of_reach(double step, double t, Vector nearby) const {
   const PathPoint point = itinerary_.at(step);
-  if (!ik_->arm()) return ik_->position(point, t, nearby) == IkOutcome::solved ? 0 : ik_->miss(point, t, nearby);
+  if (!ik_->arm())
+    return ik_->position(point, t, nearby) == IkOutcome::solved ? 0 : ik_->miss(point, t, nearby);
   const ThreeAxisArm& arm = *ik_->arm();
   const ArmReach reach = reach_of(arm, point.position);
   if (reach.beside < 0) return std::abs(arm.lateral) - point.position.head<2>().norm();
@@ -125,7 +126,7 @@ std::string Refusal::reach_text(double step, double t, Vector nearby) const {
   const PathPoint point = itinerary_.at(step);
   if (!ik_->arm()) {
     ik_->position(point, t, nearby);
-    const auto [error, jacobian, place, angle] = ik_->prescription().miss(point, t, nearby);
+    const auto [error, jacobian, rate, place, angle] = ik_->prescription().miss(point, t, nearby);
     return fmt::format("{:.4g} m{} from the nearest place that a search found", place,
                        angle > 0 ? fmt::format(" and {:.4g} rad", angle) : "");
   }

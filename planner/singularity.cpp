@@ -26,7 +26,8 @@ double small_distance_to_singular(const Matrix& A) {
     const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0), norm = A.norm();
     return norm > 0 ? det / norm : 0;
   }
-  const Eigen::Vector3d a = A.col(0), b = A.col(1), c = A.col(2), x = b.cross(c), y = c.cross(a), z = a.cross(b);
+  const Eigen::Vector3d a = A.col(0), b = A.col(1), c = A.col(2), x = b.cross(c), y = c.cross(a),
+                        z = a.cross(b);
   const double norm = std::sqrt(x.squaredNorm() + y.squaredNorm() + z.squaredNorm());
   return norm > 0 ? a.dot(x) / norm : 0;
 }
@@ -45,14 +46,15 @@ double signed_distance_to_singular(const Matrix& A) {
 }  // namespace
 
 SingularityMeasures::SingularityMeasures(const Model<double>& model, const Vector& motor_scale,
-                                         Prescription* prescription)
+                                         const std::optional<std::vector<int>>& held)
     : model_(model),
       n_u_(model.n_u()),
       ws_(model),
       motor_scale_(motor_scale),
-      prescription_(prescription),
-      scale_(model.scene->singularities.size() + (prescription ? 1 : 0), 1.0),
+      hand_(model),
+      scale_(model.scene->singularities.size() + (held ? 1 : 0), 1.0),
       buffer_(scale_.size()) {
+  if (held) prescription_.emplace(hand_, *held);
   const Vector home = Eigen::Map<const Vector>(model.scene->home.data(), n_u_);
   evaluate_raw(home, 0, scale_.data());
   const std::vector<double> about = largest_about(home);
@@ -113,7 +115,8 @@ std::string SingularityMeasures::lost(std::size_t measure, const Vector& psi, do
     for (Eigen::Index i = 0; i < idle.size(); ++i)
       if (std::abs(idle[i]) > kTakesPart)
         motors += (motors.empty() ? "" : ", ") + model_.scene->motors()[static_cast<std::size_t>(i)].name;
-    motors = fmt::format(", whatever {} {}", motors, motors.find(',') == std::string::npos ? "does" : "do together");
+    motors = fmt::format(", whatever {} {}", motors,
+                         motors.find(',') == std::string::npos ? "does" : "do together");
   }
   return fmt::format(" ({}{})", prescription_->text_of_lost(t, psi, svd.matrixU().col(last)), motors);
 }

@@ -27,10 +27,9 @@ std::string endings(const Experiment& experiment, const Result& result) {
   if (measures.no_way_on)
     text += fmt::format("  ended at {:.6g} s: {}\n", *measures.diverged_at, *measures.no_way_on);
   else if (measures.diverged_at)
-    text += fmt::format(
-        "  diverged at {:.6g} s: {}a value was not finite; nothing of that tick was published\n",
-        *measures.diverged_at,
-        watched(experiment));
+    text +=
+        fmt::format("  diverged at {:.6g} s: {}a value was not finite; nothing of that tick was published\n",
+                    *measures.diverged_at, watched(experiment));
   if (measures.safe_at) {
     const bool caused = result.bus && result.bus->deadlines && result.bus->deadlines->safe_cause;
     text += fmt::format("  safe state from {:.6g} s on{}; what follows is judged up to there\n",
@@ -116,7 +115,8 @@ std::string summary(const Experiment& experiment, const Result& result) {
   if (measures.final_psi)
     text += "  final position   " + positions(experiment.scene->independent, *measures.final_psi) + "\n";
   if (measures.energy_drift) text += "  energy drift     " + energy_drift(*measures.energy_drift) + "\n";
-  text += fmt::format("  max {:<13}", all_linear(run) ? "force" : "torque") + max_torque(run) + "\n";
+  if (!run.torque_units.empty())
+    text += fmt::format("  max {:<13}", all_linear(run) ? "force" : "torque") + max_torque(run) + "\n";
   text += fmt::format("  {} ticks at {:g} Hz by {} in {:.3f} s ({})\n", measures.ticks, experiment.rate_hz,
                       run.route, run.wall_time, run.evaluation);
   if (run.integrator.chosen) text += "  integrator       " + run.integrator.chosen->why + "\n";

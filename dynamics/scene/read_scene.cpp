@@ -33,19 +33,22 @@ void read_prescribed(const NodePtr& node, Scene::EndEffector& end_effector) {
     if (std::ranges::count(list, word % 3) > 0)
       throw InputError("doubly_defined", item->place, "the axis '" + item->text + "' is given twice");
     if (word < 3 && !end_effector.turns.empty())
-      throw InputError("out_of_range", item->place,
-                       "the axis '" + item->text + "' after those of turning; expected x, y, z before rx, ry, rz");
+      throw InputError(
+          "out_of_range", item->place,
+          "the axis '" + item->text + "' after those of turning; expected x, y, z before rx, ry, rz");
     list.push_back(word % 3);
   }
   if (end_effector.axes.empty())
-    throw InputError("out_of_range", node->place,
-                     "the axes prescribe how the end effector is turned, and not where it is; expected at least "
-                     "one of x, y, z");
+    throw InputError(
+        "out_of_range", node->place,
+        "the axes prescribe how the end effector is turned, and not where it is; expected at least "
+        "one of x, y, z");
   const auto& turns = end_effector.turns;
   if (turns.size() == 2 || (turns.size() == 3 && !std::ranges::is_sorted(turns)))
-    throw InputError("out_of_range", node->place,
-                     "the end effector is turned by roll, pitch and yaw; expected rx, ry, rz in this order, one of "
-                     "them alone for what turns about that axis only, or 'direction' for where it points");
+    throw InputError(
+        "out_of_range", node->place,
+        "the end effector is turned by roll, pitch and yaw; expected rx, ry, rz in this order, one of "
+        "them alone for what turns about that axis only, or 'direction' for where it points");
 }
 
 void read_end_effector(const Mapping& root, SceneDraft& draft) {
@@ -137,7 +140,7 @@ const Keys& scene_keys() {
       {{"name", text()},
        {"constants", named(number())},
        {"parameters", named(number())},
-       {"motors", names(), kRequired},
+       {"motors", names()},
        {"free", names()},
        {"coordinates", list(name())},
        {"constraints", named(number())},

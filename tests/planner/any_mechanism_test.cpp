@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paths of mechanisms with more motors than axes, of those that are turned along the way, and of the motors alone.
+// Paths of mechanisms with more motors than axes, of those that are turned along the way, and of the motors
+// alone.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -62,7 +63,8 @@ HandTurns turns_at(HandKinematics& hand, const Reference& reference) {
 /// psid and psidd are the rates of psi and psid: by differences of fourth order over a tick.
 void expect_rates(const Plan& plan, double rate, double tolerance) {
   double most = 1;
-  for (std::int64_t k = 0; k <= plan.ticks(); ++k) most = std::max(most, plan.at(k).psidd.cwiseAbs().maxCoeff());
+  for (std::int64_t k = 0; k <= plan.ticks(); ++k)
+    most = std::max(most, plan.at(k).psidd.cwiseAbs().maxCoeff());
   for (std::int64_t k = 2; k + 2 <= plan.ticks(); k += 7) {
     const auto slope = [&](auto of) {
       return Vector((8 * (of(k + 1) - of(k - 1)) - (of(k + 2) - of(k - 2))) * rate / 12);
@@ -117,16 +119,18 @@ TEST(RedundantPath, IsOfLeastVelocity) {
 // There and back the motors come back to where they were, and each lap is the same.
 TEST(RedundantPath, ComesBack) {
   const auto model = model_from(planar_arm("axes: [x, y]"));
-  const Plan plan = plan_of(
-      model, "{via: [{at: [1.2, 0.6]}, {at: [0.6, 1.3], duration: 0.2 s}, {at: [0.2, 1.5], duration: 0.2 s}], repeat: 1, "
-             "redundancy: least_norm}");
+  const Plan plan = plan_of(model,
+                            "{via: [{at: [1.2, 0.6]}, {at: [0.6, 1.3], duration: 0.2 s}, {at: [0.2, 1.5], "
+                            "duration: 0.2 s}], repeat: 1, "
+                            "redundancy: least_norm}");
   EXPECT_LT((plan.at(plan.ticks()).psi - plan.at(0).psi).norm(), 1e-10);
 }
 
 TEST(RedundantPath, IsOfLeastVelocityInSpaceAndDirection) {
   const auto model = model_from(six_joints("axes: [x, y, z], direction: z"));
-  const Plan plan =
-      plan_of(model, "{line: {from: [0.5, 0.1, 0.3], to: [0.45, -0.2, 0.45]}, duration: 0.5 s, redundancy: least_norm}");
+  const Plan plan = plan_of(
+      model,
+      "{line: {from: [0.5, 0.1, 0.3], to: [0.45, -0.2, 0.45]}, duration: 0.5 s, redundancy: least_norm}");
   expect_on_path(model, plan, {0, 1, 2});
   expect_rates(plan, 1000, 1e-7);
   HandKinematics hand(model);
@@ -140,27 +144,31 @@ TEST(RedundantPath, TurnsADirectionAlongTheShortestWay) {
   HandKinematics hand(model);
   const Vector3d from = hand.turns_at(hand.home(), hand.rest(), hand.rest(), 0).rotation.col(2);
   const Vector3d to = (from + Vector3d(0.2, -0.3, 0.1)).normalized();
-  const Plan plan = plan_of(model, fmt::format("{{via: [{{at: [0.5, 0.1, 0.3]}}, {{at: [0.45, 0, 0.4], direction: "
-                                               "[{:.17g}], duration: 0.5 s}}], hold: [m6]}}",
-                                               fmt::join(to, ", ")));
+  const Plan plan =
+      plan_of(model, fmt::format("{{via: [{{at: [0.5, 0.1, 0.3]}}, {{at: [0.45, 0, 0.4], direction: "
+                                 "[{:.17g}], duration: 0.5 s}}], hold: [m6]}}",
+                                 fmt::join(to, ", ")));
   expect_rates(plan, 1000, 1e-7);
   const auto pointing = [&](std::int64_t k) { return Vector3d(turns_at(hand, plan.at(k)).rotation.col(2)); };
   EXPECT_LT((pointing(0) - from).norm(), 1e-12) << "as at home";
   EXPECT_LT((pointing(500) - to).norm(), 1e-12);
-  EXPECT_LT((pointing(250) - (from + to).normalized()).norm(), 1e-12) << "half of the way at half of the time";
+  EXPECT_LT((pointing(250) - (from + to).normalized()).norm(), 1e-12)
+      << "half of the way at half of the time";
 }
 
 TEST(TurnedPath, HasItsRollPitchAndYaw) {
   const auto model = model_from(six_joints("axes: [x, y, z, rx, ry, rz]"));
-  const Plan plan = plan_of(
-      model, "{line: {from: [0.45, 0.1, 0.4, 150 deg, 10 deg, 20 deg], to: [0.4, -0.1, 0.45, 170 deg, -10 deg, 40 deg]}, "
-             "duration: 0.5 s}");
+  const Plan plan = plan_of(model,
+                            "{line: {from: [0.45, 0.1, 0.4, 150 deg, 10 deg, 20 deg], to: [0.4, -0.1, 0.45, "
+                            "170 deg, -10 deg, 40 deg]}, "
+                            "duration: 0.5 s}");
   expect_on_path(model, plan, {0, 1, 2});
   expect_rates(plan, 1000, 1e-7);
   HandKinematics hand(model);
   constexpr double kDegree = std::numbers::pi / 180;
   const auto rpy = [](double roll, double pitch, double yaw) {
-    return (Eigen::AngleAxisd(yaw * kDegree, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch * kDegree, Vector3d::UnitY()) *
+    return (Eigen::AngleAxisd(yaw * kDegree, Vector3d::UnitZ()) *
+            Eigen::AngleAxisd(pitch * kDegree, Vector3d::UnitY()) *
             Eigen::AngleAxisd(roll * kDegree, Vector3d::UnitX()))
         .toRotationMatrix();
   };
@@ -172,8 +180,7 @@ TEST(TurnedPath, HasItsRollPitchAndYaw) {
 
 TEST(TurnedPath, OfAPlanarArmHasOneAngle) {
   const auto model = model_from(planar_arm("axes: [x, y, rz]"));
-  const Plan plan =
-      plan_of(model, "{line: {from: [1.2, 0.6, 0], to: [0.9, 1.0, 30 deg]}, duration: 0.5 s}");
+  const Plan plan = plan_of(model, "{line: {from: [1.2, 0.6, 0], to: [0.9, 1.0, 30 deg]}, duration: 0.5 s}");
   expect_on_path(model, plan, {0, 1});
   expect_rates(plan, 1000, 1e-8);
   constexpr double kHome = 100 * std::numbers::pi / 180;
@@ -200,7 +207,8 @@ TEST(HandKinematics, TurnsAsItsRotationChanges) {
 
 TEST(MotorPath, RunsThroughItsPoints) {
   const auto model = model_from(planar_arm("axes: [x, y]"));
-  const Plan plan = plan_of(model, "{motors: [{at: [0, 0, 0], dwell: 0.1 s}, {at: [1, -0.5, 90 deg], duration: 0.5 s}]}");
+  const Plan plan =
+      plan_of(model, "{motors: [{at: [0, 0, 0], dwell: 0.1 s}, {at: [1, -0.5, 90 deg], duration: 0.5 s}]}");
   EXPECT_EQ(plan.ticks(), 600);
   EXPECT_EQ(plan.at(50).psi, Vector::Zero(3));
   EXPECT_EQ(plan.at(600).psi[1], -0.5);
@@ -210,8 +218,9 @@ TEST(MotorPath, RunsThroughItsPoints) {
 }
 
 TEST(MotorPath, NeedsNoEndEffector) {
-  const auto model = model_from("motors: [a]\ntransforms: [{from: 0, to: 1, theta: a}]\n"
-                                "bodies: [{frame: 1, mass: 1 kg, center_of_mass: [1, 0, 0]}]");
+  const auto model = model_from(
+      "motors: [a]\ntransforms: [{from: 0, to: 1, theta: a}]\n"
+      "bodies: [{frame: 1, mass: 1 kg, center_of_mass: [1, 0, 0]}]");
   const Plan plan = plan_of(model, "{motors: [{at: [0]}, {at: [1]}], duration: 1 s}");
   EXPECT_TRUE(plan.has_path());
   EXPECT_TRUE(plan.at(500).position.hasNaN());
@@ -228,14 +237,16 @@ void expect_refusal(const std::string& scene, const std::string& path, const Pla
 }
 
 TEST(AnyMechanism, SaysWhichNumberIsMissing) {
-  expect_refusal(planar_arm("axes: [x, y]"), std::string(kReach) + "}", {}, "no_inverse",
-                 {"prescribes 2 numbers of the end effector (x, y)", "has 3 motors", "1 more", "`hold: [...]`"});
+  expect_refusal(
+      planar_arm("axes: [x, y]"), std::string(kReach) + "}", {}, "no_inverse",
+      {"prescribes 2 numbers of the end effector (x, y)", "has 3 motors", "1 more", "`hold: [...]`"});
   expect_refusal(planar_arm("axes: [x, y]"), std::string(kReach) + ", hold: [b, c]}", {}, "no_inverse",
                  {"2 of them held", "too few, by 1"});
   expect_refusal(planar_arm("axes: [x, y], direction: x"), std::string(kReach) + "}", {}, "no_inverse",
                  {"4 numbers of the end effector (x, y, the two of its direction)", "too few, by 1"});
-  expect_refusal(six_joints("axes: [x, y, z, rz]"), "{line: {from: [0.5, 0, 0.3, 0], to: [0.4, 0, 0.3, 0]}, duration: 1 s, "
-                                                    "hold: [m4, m6]}",
+  expect_refusal(six_joints("axes: [x, y, z, rz]"),
+                 "{line: {from: [0.5, 0, 0.3, 0], to: [0.4, 0, 0.3, 0]}, duration: 1 s, "
+                 "hold: [m4, m6]}",
                  {}, "other_turns", {"about z alone", "turns about x too", "rx, ry, rz"});
 }
 
@@ -252,21 +263,26 @@ TEST(AnyMechanism, KeepsItsMotorsWithinTheirLimits) {
 
 // Stretched along x, no motor moves the hand along x.
 TEST(AnyMechanism, SaysWhatASingularPoseCantDo) {
-  expect_refusal(planar_arm("axes: [x, y]"), "{line: {from: [1.5, 0], to: [2.301, 0]}, duration: 0.5 s, hold: [c]}", {},
-                 "unreachable", {"it leaves what can be reached"});
+  expect_refusal(planar_arm("axes: [x, y]"),
+                 "{line: {from: [1.5, 0], to: [2.301, 0]}, duration: 0.5 s, hold: [c]}", {}, "unreachable",
+                 {"it leaves what can be reached"});
   const std::string straight = planar_arm("axes: [x, y, rz]");
-  expect_refusal(straight, "{line: {from: [1.2, 0.6, -100 deg], to: [2.29999999, 0, -100 deg]}, duration: 0.5 s}", {}, "singular_path",
-                 {"of the end effector's Jacobian", "it can't move along (1, 0, 0)", "whatever a, b, c do together"});
+  expect_refusal(
+      straight, "{line: {from: [1.2, 0.6, -100 deg], to: [2.29999999, 0, -100 deg]}, duration: 0.5 s}", {},
+      "singular_path",
+      {"of the end effector's Jacobian", "it can't move along (1, 0, 0)", "whatever a, b, c do together"});
 }
 
 TEST(AnyMechanism, RefusesAHalfTurnThatMayGoEitherWay) {
-  expect_refusal(planar_arm("axes: [x, y, rz]"), "{line: {from: [1.2, 0.6, 0], to: [0.9, 1.0, 180 deg]}, duration: 0.5 s}",
-                 {}, "out_of_range", {"half a turn", "a via point between"});
+  expect_refusal(planar_arm("axes: [x, y, rz]"),
+                 "{line: {from: [1.2, 0.6, 0], to: [0.9, 1.0, 180 deg]}, duration: 0.5 s}", {},
+                 "out_of_range", {"half a turn", "a via point between"});
 }
 
 TEST(MotorPath, IsRefusedWhereClosuresEnd) {
   const auto model = model_of(load_scene(MIXLOOP_SCENES "/four_bar_rocker.yaml"));
-  const auto error = input_error([&] { plan_of(model, "{motors: [{at: [80 deg]}, {at: [280 deg], duration: 1 s}]}"); });
+  const auto error =
+      input_error([&] { plan_of(model, "{motors: [{at: [80 deg]}, {at: [280 deg], duration: 1 s}]}"); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code, "unreachable");
   EXPECT_THAT(error->message, HasSubstr("closures can't be closed"));
