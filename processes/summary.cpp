@@ -115,7 +115,7 @@ std::string summary(const Experiment& experiment, const Result& result) {
   if (measures.final_psi)
     text += "  final position   " + positions(experiment.scene->independent, *measures.final_psi) + "\n";
   if (measures.energy_drift) text += "  energy drift     " + energy_drift(*measures.energy_drift) + "\n";
-  if (!run.torque_units.empty())
+  if (measures.max_torque.size() > 0)
     text += fmt::format("  max {:<13}", all_linear(run) ? "force" : "torque") + max_torque(run) + "\n";
   text += fmt::format("  {} ticks at {:g} Hz by {} in {:.3f} s ({})\n", measures.ticks, experiment.rate_hz,
                       run.route, run.wall_time, run.evaluation);
