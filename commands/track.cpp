@@ -108,9 +108,15 @@ Result tracked_or_error(const SuiteRun& run, const TrackLine& options, const Sto
   }
 }
 
-/// What there is to say of a motion without a path.
+/// What there is to say of a motion where no end effector follows a path.
 std::string free_motion(const Measures& measures) {
-  std::string text = "final";
+  std::string text;
+  if (measures.max_motor_error) {
+    text = "motors off by";
+    for (const double error : *measures.max_motor_error) text += " " + fixed(error, 7);
+    text += ", ";
+  }
+  text += "final";
   for (const double psi : measures.final_psi.value_or(Vector())) text += " " + fixed(psi, 7);
   if (measures.energy_drift && !std::isnan(*measures.energy_drift))
     text += fmt::format(", energy drift {:.3g}", *measures.energy_drift);

@@ -78,10 +78,37 @@ double read_rate(const Node& node) {
   return rate;
 }
 
+/// A pair [least, most] for each motor.
+std::vector<std::array<double, 2>> read_ranges(const NodePtr& node, const Scene& scene) {
+  const auto pairs = items_of(node, "the position limits");
+  if (pairs.size() != scene.motors().size() || node->kind != Node::Kind::sequence)
+    throw InputError(
+        "wrong_size", node->place,
+        fmt::format("found {}; expected the position limits, a pair [least, most] for each of the {} motors",
+                    describe(*node), scene.n_u()));
+  std::vector<std::array<double, 2>> ranges;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& motor = scene.motors()[i];
+    const auto pair = numbers_of(pairs[i], kPosition.of(motor), 2, "the limits [least, most]");
+    if (!(pair[0] < pair[1]))
+      throw InputError(
+          "out_of_range", pairs[i]->place,
+          fmt::format("the motor {} is to stay between {:g} and {:g} {}; expected the lower one first",
+                      motor.name, pair[0], pair[1], position_unit(motor.linear)));
+    ranges.push_back({pair[0], pair[1]});
+  }
+  return ranges;
+}
+
 void read_limits(const NodePtr& node, Experiment& experiment) {
   const Mapping entry = read_mapping(node, limit_keys());
   if (!experiment.has_path()) return refuse_limits(entry);
-  if (const NodePtr limit = entry.find("position_error"))
+  const bool has_hand = experiment.scene->end_effector.named;
+  if (const NodePtr limit = entry.find("position_error"); limit && !has_hand)
+    throw InputError(
+        "out_of_range", limit->place,
+        "the scene names no end_effector, which limits.position_error is of; expected limits.motor_error");
+  else if (limit)
     experiment.position_error_limit = number_of(*limit, kLength, "the position error limit");
   if (!(experiment.position_error_limit > 0))
     throw InputError("out_of_range", entry.at("position_error")->place,
@@ -98,12 +125,20 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
   };
   experiment.limits.velocity = positive("velocity", kVelocity, "the velocity limit");
   experiment.limits.torque = positive("torque", kTorque, "the torque limit");
+  if (const NodePtr limit = entry.find("motor_error"); limit && !experiment.path.is_of_motors())
+    throw InputError(
+        "out_of_range", limit->place,
+        "limits.motor_error is of a path of the motors, and this one is of the end effector; expected "
+        "limits.position_error");
+  experiment.limits.motor_error = positive("motor_error", kPosition, "the motor error limit");
+  if (const NodePtr limit = entry.find("position"))
+    experiment.limits.position = read_ranges(limit, *experiment.scene);
 }
 
 Expectation read_expectation_of(const Experiment& experiment, const NodePtr& node) {
   std::optional<double> limit;
-  if (experiment.has_path()) limit = experiment.position_error_limit;
-  Expectation expect = read_expectation(node, *experiment.scene, limit);
+  if (experiment.has_path() && experiment.scene->end_effector.named) limit = experiment.position_error_limit;
+  Expectation expect = read_expectation(node, *experiment.scene, limit, experiment.path.is_of_motors());
   if (const std::string why = other_work_in(experiment); expect.bounds_on("energy_drift") && !why.empty())
     throw InputError("out_of_range", find_entry(*node, "energy_drift")->place,
                      "energy and the motors' work don't balance: " + why +
@@ -148,6 +183,11 @@ void read_motion(const Mapping& root, Experiment& experiment) {
   experiment.path.place = duration->place;
 }
 
+/// What controls a scene without a motor.
+NodePtr nothing_to_control() {
+  return parse_document("{law: torque, torque: []}", "the controller of no motors");
+}
+
 void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   PlantSettings& plant = experiment.plant;
   const NodePtr faults = root.find("faults");
@@ -169,9 +209,15 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
 
 std::string text_of(const Path& path) {
   std::string text;
-  for (const auto& via : path.vias)
+  for (const auto& via : path.vias) {
     text += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
                         via.duration, via.dwell);
+    for (const double motor : via.motors) text += fmt::format("motor {:a};", motor);
+    if (!via.turns.isZero(0)) text += fmt::format("turns {:a};", fmt::join(via.turns, " "));
+    if (via.direction) text += fmt::format("direction {:a};", fmt::join(*via.direction, " "));
+  }
+  if (!path.held.empty()) text += fmt::format("hold {};", fmt::join(path.held, " "));
+  if (path.least_norm) text += "least norm;";
   return text + fmt::format("repeat {} approach {:a}", path.repeat, path.approach.value_or(0));
 }
 
@@ -182,9 +228,12 @@ NodePtr parameters_in(const NodePtr& section) {
 }  // namespace
 
 const Keys& limit_keys() {
-  static const Keys keys{
-      "the limits",
-      {{"position_error", form::number()}, {"velocity", form::numbers()}, {"torque", form::numbers()}}};
+  static const Keys keys{"the limits",
+                         {{"position_error", form::number()},
+                          {"motor_error", form::numbers()},
+                          {"position", form::list(form::numbers())},
+                          {"velocity", form::numbers()},
+                          {"torque", form::numbers()}}};
   return keys;
 }
 
@@ -195,7 +244,7 @@ const Keys& experiment_keys() {
                           {"rate", form::number()},
                           {"path", form::mapping(path_keys)},
                           {"duration", form::number()},
-                          {"controller", form::mapping(controller_keys), kRequired},
+                          {"controller", form::mapping(controller_keys)},
                           {"plant", form::mapping(plant_keys)},
                           {"real_time", form::mapping(real_time_keys)},
                           {"parameters", form::named(form::number())},
@@ -235,7 +284,8 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
   if (const NodePtr rate = root.find("rate")) experiment.rate_hz = read_rate(*rate);
   read_motion(root, experiment);
 
-  const NodePtr controller = root.at("controller");
+  const NodePtr controller =
+      scene.n_u() > 0 || root.has("controller") ? root.at("controller") : nothing_to_control();
   experiment.controller = read_controller_settings(controller, scene, base);
   const NodePtr other_scene = find_entry(*controller, "scene");
   experiment.controller_scene =

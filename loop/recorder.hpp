@@ -8,6 +8,7 @@
 
 #include "loop/experiment.hpp"
 #include "loop/measures.hpp"
+#include "loop/orientation_error.hpp"
 #include "loop/record_rows.hpp"
 #include "notation/sha256.hpp"
 
@@ -82,7 +83,9 @@ class Recorder {
   std::size_t width() const { return 2 * n_ + 2 * n_u_ + 1 + loops_; }
   bool judged(std::int64_t k) const { return k < safe_from_; }
   void measure(std::int64_t k, std::span<const double> tau);
+  void measure_path(std::int64_t k);
   void measure_energy(std::int64_t k);
+  bool motors_are_off(std::int64_t k, std::span<const double> psi);
   std::optional<Vector> final_psi() const;
   bool diverged(std::int64_t k);
 
@@ -98,8 +101,11 @@ class Recorder {
   std::size_t row_of_conditions_ = 0;
   std::vector<double> conditions_;  ///< rows of tick, friction, parameters: as it began, then each change
   std::vector<double> zero_, hand_;
-  std::optional<Equations::Workspace> energy_;  ///< none: it isn't measured
-  std::optional<Partitions> switched_energy_;   ///< where coordinates are switched
+  std::optional<OrientationError> orientation_;  ///< none: nothing is prescribed
+  std::vector<double> motor_error_limit_;        ///< of a path of the motors; empty: none
+  Vector motor_error_;                           ///< n_u, of a path of the motors
+  std::optional<Equations::Workspace> energy_;   ///< none: it isn't measured
+  std::optional<Partitions> switched_energy_;    ///< where coordinates are switched
   LoopMotion hand_loops_;
   double first_energy_ = 0, largest_energy_ = 0, largest_imbalance_ = 0;  ///< J
   bool energy_begun_ = false, energy_changed_ = false;                    ///< changed: by a fault

@@ -113,6 +113,9 @@ void fields(const Way& f, M& m) {
     g("final_position_error", m.final_position_error);
     g("rms_position_error", m.rms_position_error);
   });
+  f.where("max_orientation_error", m.is_oriented,
+          [&](const Way& g) { g("max_orientation_error", m.max_orientation_error); });
+  f("max_motor_error", m.max_motor_error);
   f("final_psi", m.final_psi);
   f("energy_drift", m.energy_drift);
   f("max_torque", m.max_torque);

@@ -159,8 +159,8 @@ class Writer {
       line("  const Real {0}_in[] = {{{1}}};\n  (void){0};", name, used > 0 ? loads : "Real()");
       arguments += fmt::format("{}_in{}, ", name, block == Block::time ? "[0]" : "");
     }
-    line("  Real results[{}];\n  {}_run<Real>({}k, results);", program_.outputs.size(), style_.prefix,
-         arguments);
+    line("  Real results[{}];\n  {}_run<Real>({}k, results);",
+         std::max<std::size_t>(program_.outputs.size(), 1), style_.prefix, arguments);
     for (std::size_t i = 0; i < program_.outputs.size(); ++i) line("  ((Loose*)out)[{0}] = results[{0}];", i);
     line("}}");
   }

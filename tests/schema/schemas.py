@@ -58,6 +58,7 @@ SECTIONS = {
     "the path": ("experiments.md", "path"),
     "the line": ("experiments.md", "path"),
     "a via point": ("experiments.md", "path"),
+    "a point of the motors": ("experiments.md", "path"),
     "the controller": ("experiments.md", "controller"),
     "the state to feed back about": ("experiments.md", "controller"),
     "the controller's safety": ("hil.md", None),
@@ -203,7 +204,7 @@ def pages_name_the_keys(source, known, wrong):
 def main(source, mixloop):
     source = os.path.realpath(source)
     wrong, known, tried = [], {}, 0
-    for kind, names in (("scene", ["scene.yaml", "closures.yaml"]), ("experiment", ["experiment.yaml", "line.yaml", "free.yaml", "near_singular.yaml"])):
+    for kind, names in (("scene", ["scene.yaml", "closures.yaml"]), ("experiment", ["experiment.yaml", "line.yaml", "free.yaml", "near_singular.yaml", "motors.yaml"])):
         schema = schema_of(mixloop, kind)
         jsonschema.Draft7Validator.check_schema(schema)
         validator = jsonschema.Draft7Validator(schema)
