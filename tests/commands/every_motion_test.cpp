@@ -42,9 +42,8 @@ TEST(EveryMotion, HasTheSameBytesOnABadNetwork) {
     const auto alone = result_of(motion, "simulate");
     const auto lossy = result_of(motion, "run", bad_network(++seed));
     EXPECT_EQ(lossy["trajectory_sha256"], alone["trajectory_sha256"]);
-    for (const char* measure :
-         {"closure_residual", "closure_condition", "switches", "final_psi", "energy_drift", "max_motor_error",
-          "max_orientation_error"})
+    for (const char* measure : {"closure_residual", "closure_condition", "switches", "final_psi",
+                                "energy_drift", "max_motor_error", "max_orientation_error"})
       EXPECT_EQ(lossy.value(measure, nlohmann::json()), alone.value(measure, nlohmann::json())) << measure;
     EXPECT_GT(lossy["resent"], 0);
   }
@@ -71,7 +70,7 @@ TEST(MotionWithoutMotors, IsKeptReportedReplayedAndShown) {
   words = {"replay", file, out + "/run.lcmlog"};
   words.insert(words.end(), shorter.begin(), shorter.end());
   EXPECT_EQ(told_by(words)["identical"], 301);
-  EXPECT_EQ(told_by({"track", file})["runs"].size(), 1U);
+  EXPECT_EQ(told_by({"track", file})["results"].size(), 1U);
   if (!MIXLOOP_HAS_PAGES) GTEST_SKIP() << "built without npm";
   told_by({"report", out, "--out", folder.file("report.html")});
   std::filesystem::remove(out + "/result.json");
