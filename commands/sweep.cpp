@@ -74,12 +74,6 @@ Part part_of(const std::string& text) {
   return part;
 }
 
-std::string name_of_sweep(const std::string& file) {
-  std::string name = std::filesystem::path(file).stem().string();
-  if (name.ends_with(".sweep")) name.resize(name.size() - 6);
-  return printable_name(name);
-}
-
 int write_one(const SweepLine& line, const Sweep& sweep) {
   if (*line.write_run < 0 || *line.write_run >= sweep.runs())
     throw InputError("out_of_range", {"--write-run"},

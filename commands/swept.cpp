@@ -119,6 +119,25 @@ Swept swept(const Sweep& sweep, const SweepOptions& options, const StopSwitch& s
   return result;
 }
 
+Result result_of(const Sweep& sweep, const Swept& swept) {
+  SweepFigures figures{.runs = swept.runs, .done = swept.statistics.runs, .wall_time = swept.wall_time};
+  for (std::size_t i = 0; i < swept.statistics.columns.size(); ++i) {
+    const ColumnStatistics& column = swept.statistics.columns[i];
+    const auto& told = sweep.telling().columns[i];
+    if (column.measured == 0) continue;
+    figures.figures.push_back({told.name + " max", told.unit, column.most});
+    figures.figures.push_back({told.name + " p99.9", told.unit, column.quantiles.back()});
+    figures.figures.push_back({told.name + " mean", told.unit, column.mean});
+  }
+  return {.experiment = sweep.name(),
+          .judged = {.verdict = swept.interrupted       ? Verdict::interrupted
+                                : swept.missed.empty() ? Verdict::held
+                                                       : Verdict::missed,
+                     .missed = swept.missed,
+                     .exit_status = swept.exit_status},
+          .sweep = std::move(figures)};
+}
+
 std::string summary(const Sweep& sweep, const Swept& swept, const SweepOptions& options) {
   const Statistics& statistics = swept.statistics;
   std::string text = fmt::format("{}: {} of {} runs of {}", sweep.name(), statistics.runs, swept.runs,

@@ -34,6 +34,9 @@ struct Swept {
 /// Goes through a sweep and keeps its table once all its runs are there. Throws InputError and RunFault.
 Swept swept(const Sweep& sweep, const SweepOptions& options, const StopSwitch& stop);
 
+/// The same as one result of a suite.
+Result result_of(const Sweep& sweep, const Swept& swept);
+
 /// What is told of it: to people, and as JSON.
 std::string summary(const Sweep& sweep, const Swept& swept, const SweepOptions& options);
 nlohmann::json json_of(const Sweep& sweep, const Swept& swept, const SweepOptions& options);

@@ -86,6 +86,13 @@ bool is_sweep(const std::filesystem::path& file) {
   }
 }
 
+std::string name_of_sweep(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  static constexpr std::string_view kSuffix = ".sweep";
+  if (name.ends_with(kSuffix)) name.resize(name.size() - kSuffix.size());
+  return printable_name(name);
+}
+
 SweepRequest read_sweep(const std::filesystem::path& file) {
   const Mapping root = read_mapping(read_document(file), sweep_keys());
   SweepRequest request;

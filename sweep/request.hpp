@@ -36,6 +36,9 @@ const Keys& sweep_expectation_keys();
 /// can't be read.
 bool is_sweep(const std::filesystem::path& file);
 
+/// What it is called: its stem, without `.sweep`; printable.
+std::string name_of_sweep(const std::filesystem::path& file);
+
 /// Reads a sweep's file. Throws InputError.
 SweepRequest read_sweep(const std::filesystem::path& file);
 
