@@ -87,7 +87,7 @@ class Column {
     require(H5Pset_chunk(how, 1, &chunk));
     require(H5Pset_shuffle(how));
     require(H5Pset_deflate(how, 4));
-    require(H5Pset_obj_track_times(how, false));  // equal tables are equal files
+    require(H5Pset_obj_track_times(how, false));
     return {H5Dcreate2(file, name.c_str(), type_, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose};
   }
 
@@ -145,7 +145,9 @@ class Table {
 void write_whole(const std::filesystem::path& file, const Sweep& sweep, const EachRun& each) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   require(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18));
-  Handle out(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  const Handle how(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  require(H5Pset_obj_track_times(how, false));  // equal tables are equal files
+  Handle out(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, how, access), H5Fclose);
   Table table(out, sweep);
   each([&](const Outcome& outcome) {
     table.add(outcome);

@@ -35,10 +35,10 @@ class KeyWalk {
       case Form::Kind::mapping:
         break;
       default:
-        refuse("invalid_path", fmt::format("{} is a single value; expected a key that ends with it", before_));
+        fail("invalid_path", fmt::format("{} is a single value; expected a key that ends with it", before_));
     }
     if (step.is_index)
-      refuse("invalid_path", fmt::format("{} is no list; expected a name behind it", before_));
+      fail("invalid_path", fmt::format("{} is no list; expected a name behind it", before_));
     const NodePtr inner = node && node->kind == Node::Kind::mapping ? find_entry(*node, step.key) : nullptr;
     const Form& of = form.kind == Form::Kind::named ? named(form, node, step.key) : keyed(form, step.key);
     before_ = in_quotes(step.key);
@@ -46,7 +46,7 @@ class KeyWalk {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& code, const std::string& message) const {
+  [[noreturn]] void fail(const std::string& code, const std::string& message) const {
     throw InputError(code, variation_.place, message);
   }
 
@@ -56,7 +56,7 @@ class KeyWalk {
     if (known != keys.all.end()) return known->form;
     std::vector<std::string> names;
     for (const Key& one : keys.all) names.push_back(one.name);
-    refuse("unknown_key", fmt::format("{} has no key {}{}", keys.what, in_quotes(key), suggestion(key, names)));
+    fail("unknown_key", fmt::format("{} has no key {}{}", keys.what, in_quotes(key), suggestion(key, names)));
   }
 
   const Form& named(const Form& form, const NodePtr& node, const std::string& name) const {
@@ -65,7 +65,7 @@ class KeyWalk {
       for (const auto& entry : node->entries) names.push_back(entry.key);
     if (before_.ends_with("parameters'")) names.insert(names.end(), parameters_.begin(), parameters_.end());
     if (std::ranges::find(names, name) == names.end())
-      refuse("unknown_key",
+      fail("unknown_key",
              fmt::format("{} has no entry {}{}", before_, in_quotes(name), suggestion(name, names)));
     return form.of.front();
   }
@@ -76,10 +76,10 @@ class KeyWalk {
         node->kind == Node::Kind::mapping)
       return go(form.of.front(), node, steps);
     if (!step.is_index)
-      refuse("invalid_path", fmt::format("{} is a list; expected which item, e.g. [0] of the first one", before_));
+      fail("invalid_path", fmt::format("{} is a list; expected which item, e.g. [0] of the first one", before_));
     const std::size_t size = node && node->kind == Node::Kind::sequence ? node->items.size() : 0;
     if (step.index >= size)
-      refuse("invalid_path", fmt::format("{} has no item [{}]: it is {}", before_, step.index,
+      fail("invalid_path", fmt::format("{} has no item [{}]: it is {}", before_, step.index,
                                          node ? describe(*node) : "not there"));
     go(form.of.front(), node->items[step.index], steps.subspan(1));
   }

@@ -71,7 +71,7 @@ struct Written {
   std::string key, value;
   Place place;
 
-  [[noreturn]] void refuse(const std::string& code, const std::string& message) const {
+  [[noreturn]] void fail(const std::string& code, const std::string& message) const {
     throw InputError(code, place, message);
   }
   Variation named(Variation variation) const {
@@ -85,43 +85,50 @@ struct Written {
   }
 };
 
+/// To 15 digits, as people write numbers: 0.3, not 0.30000000000000004.
+double rounded(double number) {
+  const std::string text = fmt::format("{:.15g}", number);
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
 Variation range_of(const Written& written, std::size_t dots) {
   const std::string& value = written.value;
   static constexpr const char* kExpected = "expected from..to:count, e.g. 0..5 kg:11";
   const std::size_t colon = value.rfind(':');
   if (colon == std::string::npos || colon < dots)
-    written.refuse("invalid_range", in_quotes(value) + " doesn't say how many values; " + kExpected);
+    written.fail("invalid_range", in_quotes(value) + " doesn't say how many values; " + kExpected);
   const std::string many = trimmed(std::string_view(value).substr(colon + 1));
   std::int64_t count = 0;
   const auto [end, error] = std::from_chars(many.data(), many.data() + many.size(), count);
   if (error != std::errc() || end != many.data() + many.size() || many.empty())
-    written.refuse("invalid_range", in_quotes(many) + " is no number of values; " + kExpected);
+    written.fail("invalid_range", in_quotes(many) + " is no number of values; " + kExpected);
   if (count < 1 || count > kMostValues)
-    written.refuse("out_of_range", fmt::format("{} values of '{}'; expected 1 to {}", count, written.key,
+    written.fail("out_of_range", fmt::format("{} values of '{}'; expected 1 to {}", count, written.key,
                                                kMostValues));
   auto ends = numbers_in({trimmed(std::string_view(value).substr(0, dots)),
                           trimmed(std::string_view(value).substr(dots + 2, colon - dots - 2))});
   if (!ends)
-    written.refuse("invalid_range",
+    written.fail("invalid_range",
                    in_quotes(value) + " has not two numbers of one unit; " + std::string(kExpected));
   const double from = ends->numbers[0], to = ends->numbers[1];
   if ((from == to) != (count == 1))
-    written.refuse("out_of_range",
+    written.fail("out_of_range",
                    fmt::format("{} values from {} to {}: an empty range; expected two ends that differ, and "
                                "two values or more",
                                count, from, to));
   ends->numbers.clear();
-  for (std::int64_t i = 0; i < count; ++i)
-    ends->numbers.push_back(count == 1 ? from
-                                       : (from * static_cast<double>(count - 1 - i) + to * static_cast<double>(i)) /
-                                             static_cast<double>(count - 1));
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double share = count == 1 ? 0 : static_cast<double>(i) / static_cast<double>(count - 1);
+    ends->numbers.push_back(rounded(from * (1 - share) + to * share));
+  }
   return written.named(*ends);
 }
 
 Variation listed(const Written& written, const std::vector<std::string>& texts) {
   for (const auto& text : texts)
     if (text.empty())
-      written.refuse("wrong_size", "no value for '" + written.key + "', or none between two commas; expected "
+      written.fail("wrong_size", "no value for '" + written.key + "', or none between two commas; expected "
                                    "values parted by commas, e.g. 1,2,5 kg");
   if (auto numbers = numbers_in(texts)) return written.named(std::move(*numbers));
   Variation listed;
@@ -141,17 +148,17 @@ Variation sampled(const Written& written) {
   const std::size_t open = value.find('(');
   const std::string name = trimmed(std::string_view(value).substr(0, open));
   if (std::ranges::find(kNames, name) == kNames.end())
-    written.refuse("unknown_value",
+    written.fail("unknown_value",
                    in_quotes(name) + " is nothing to sample from" + suggestion(name, kNames));
   if (open == std::string::npos || !value.ends_with(')'))
-    written.refuse("invalid_range", in_quotes(value) + " lacks its numbers; " + kExpected);
+    written.fail("invalid_range", in_quotes(value) + " lacks its numbers; " + kExpected);
   auto numbers = numbers_in(parts_of(std::string_view(value).substr(open + 1, value.size() - open - 2)));
   if (!numbers || numbers->numbers.size() != 2)
-    written.refuse("invalid_range", in_quotes(value) + " has not two numbers of one unit; " + kExpected);
+    written.fail("invalid_range", in_quotes(value) + " has not two numbers of one unit; " + kExpected);
   const bool is_normal = name == "normal";
   const double first = numbers->numbers[0], second = numbers->numbers[1];
   if (is_normal ? !(second > 0) : !(first < second))
-    written.refuse("out_of_range", is_normal
+    written.fail("out_of_range", is_normal
                                        ? fmt::format("a standard deviation of {}; expected more than 0", second)
                                        : fmt::format("from {} to {}: an empty range; expected from below to",
                                                      first, second));
