@@ -20,7 +20,8 @@ void add_runs(const std::string& file, std::vector<SuiteRun>& runs) {
   }
   try {
     const auto cases = cases_of(file);
-    for (const Case& one : cases) runs.push_back({.name = name_with_case(stem, one.name), .file = file, .sets = one.sets});
+    for (const Case& one : cases)
+      runs.push_back({.name = name_with_case(stem, one.name), .file = file, .sets = one.sets});
     if (cases.empty()) runs.push_back({.name = stem, .file = file});
   } catch (const InputError& error) {
     runs.push_back({.name = stem, .file = file, .unusable = error});

@@ -8,8 +8,8 @@
 
 namespace mixloop {
 
-/// How far a sweep is, how fast, and how long it will take: on a terminal a line that is redrawn, elsewhere one
-/// a minute; nothing of what is over within half a second.
+/// How far a sweep is, how fast, and how long it will take: on a terminal a line that is redrawn, elsewhere
+/// one a minute; nothing of what is over within half a second.
 class ShownSweep {
  public:
   ShownSweep(std::string name, bool quiet);
@@ -18,6 +18,8 @@ class ShownSweep {
   ShownSweep& operator=(const ShownSweep&) = delete;
 
   void at(const SweepProgress& progress);
+  /// A line that stays, also where it is quiet.
+  void say(const std::string& text);
 
  private:
   std::string name_;

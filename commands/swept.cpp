@@ -48,7 +48,8 @@ std::string text_of(const Sweep::Bound& bound) {
   }
   if (bound.expected.diverges) text += "diverge";
   if (bound.expected.safe_state) text += text.empty() ? "safe state" : ", safe state";
-  return fmt::format("{:.9g} % of the runs: {}", bound.share * 100, text.empty() ? "end as they should" : text);
+  return fmt::format("{:.9g} % of the runs: {}", bound.share * 100,
+                     text.empty() ? "end as they should" : text);
 }
 
 double part_held(const BoundStatistics& bound, const Statistics& statistics) {
@@ -60,8 +61,8 @@ std::vector<std::string> missed(const Sweep& sweep, const Statistics& statistics
   for (std::size_t i = 0; i < statistics.bounds.size(); ++i) {
     const BoundStatistics& bound = statistics.bounds[i];
     if (bound.is_held) continue;
-    std::string line = fmt::format("{}: only {:.6g} %", text_of(sweep.bounds()[i]),
-                                   100 * part_held(bound, statistics));
+    std::string line =
+        fmt::format("{}: only {:.6g} %", text_of(sweep.bounds()[i]), 100 * part_held(bound, statistics));
     if (bound.worst) {
       for (const auto& why : bound.missed) line += "; run " + std::to_string(*bound.worst) + ": " + why;
       line += "; " + as_called(sweep.command(*bound.worst));
@@ -83,11 +84,12 @@ void require_all(const Sweep& sweep, const SweepFolder& folder, const KeptRuns& 
   if (pending.empty()) return;
   std::int64_t missing = 0;
   for (const Runs& runs : pending) missing += runs.count;
-  throw InputError("missing_runs", {folder.path().string()},
-                   fmt::format("{} of {} runs are not there, the first is run {}; expected all shards to have "
-                               "ended: the command of one that hasn't goes on with it, and the same command "
-                               "without --shard and --merge does all that is missing",
-                               missing, sweep.runs(), pending.front().first));
+  throw InputError(
+      "missing_runs", {folder.path().string()},
+      fmt::format("{} of {} runs are not there, the first is run {}; expected all shards to have "
+                  "ended: the command of one that hasn't goes on with it, and the same command "
+                  "without --shard and --merge does all that is missing",
+                  missing, sweep.runs(), pending.front().first));
 }
 
 }  // namespace
@@ -99,8 +101,13 @@ Swept swept(const Sweep& sweep, const SweepOptions& options, const StopSwitch& s
   const auto began = std::chrono::steady_clock::now();
   if (!options.merges) {
     ShownSweep shown(sweep.name(), options.quiet);
-    go_through(sweep, folder, options.part, run_one_by_one, options.threads, [&] { return !stop.turned(); },
-               [&](const SweepProgress& progress) { shown.at(progress); });
+    go_through(sweep, folder, options.part,
+               {.threads = options.threads,
+                .peers = options.peers,
+                .patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * options.patience)),
+                .goes_on = [&] { return !stop.turned(); },
+                .told = [&](const SweepProgress& progress) { shown.at(progress); },
+                .said = [&](const std::string& text) { shown.say(text); }});
   }
   const KeptRuns kept(folder.journals(), sweep.sha256(), sweep.telling().columns.size());
   if (options.merges) require_all(sweep, folder, kept);
@@ -130,7 +137,7 @@ Result result_of(const Sweep& sweep, const Swept& swept) {
     figures.figures.push_back({told.name + " mean", told.unit, column.mean});
   }
   return {.experiment = sweep.name(),
-          .judged = {.verdict = swept.interrupted       ? Verdict::interrupted
+          .judged = {.verdict = swept.interrupted      ? Verdict::interrupted
                                 : swept.missed.empty() ? Verdict::held
                                                        : Verdict::missed,
                      .missed = swept.missed,
@@ -150,14 +157,15 @@ std::string summary(const Sweep& sweep, const Swept& swept, const SweepOptions& 
     text += fmt::format(", first run {}{}", statistics.first[i],
                         statistics.code[i].empty() ? "" : " (" + statistics.code[i] + ")");
   }
-  text += fmt::format("\n  {:<32}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}  run\n", "", "mean", "std", "50 %",
-                      "90 %", "99 %", "99.9 %", "max");
+  text += fmt::format("\n  {:<32}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}  run\n", "", "mean", "std",
+                      "50 %", "90 %", "99 %", "99.9 %", "max");
   for (std::size_t i = 0; i < statistics.columns.size(); ++i) {
     const ColumnStatistics& column = statistics.columns[i];
     const auto& told = sweep.telling().columns[i];
     if (column.measured == 0) continue;
-    text += fmt::format("  {:<32}{:>12.6g}{:>12.4g}", told.unit == "1" ? told.name : told.name + " [" + told.unit + "]",
-                        column.mean, column.deviation);
+    text += fmt::format("  {:<32}{:>12.6g}{:>12.4g}",
+                        told.unit == "1" ? told.name : told.name + " [" + told.unit + "]", column.mean,
+                        column.deviation);
     for (const double value : column.quantiles) text += fmt::format("{:>12.6g}", value);
     text += fmt::format("{:>12.6g}  {}\n", column.most, column.run_of_most);
   }
@@ -209,7 +217,8 @@ nlohmann::json json_of(const Sweep& sweep, const Swept& swept, const SweepOption
                                   {"run_of_min", column.run_of_least},
                                   {"run_of_max", column.run_of_most}};
     for (std::size_t k = 0; k < column.quantiles.size(); ++k)
-      json["columns"][told.name][fmt::format("p{:.9g}", 100 * ColumnStatistics::kShares[k])] = column.quantiles[k];
+      json["columns"][told.name][fmt::format("p{:.9g}", 100 * ColumnStatistics::kShares[k])] =
+          column.quantiles[k];
   }
   for (std::size_t i = 0; i < statistics.bounds.size(); ++i) {
     const BoundStatistics& bound = statistics.bounds[i];
@@ -217,7 +226,9 @@ nlohmann::json json_of(const Sweep& sweep, const Swept& swept, const SweepOption
                           {"share", sweep.bounds()[i].share},
                           {"found", part_held(bound, statistics)},
                           {"held", bound.is_held}};
-    if (bound.worst) one["worst"] = {{"run", *bound.worst}, {"missed", bound.missed}, {"command", sweep.command(*bound.worst)}};
+    if (bound.worst)
+      one["worst"] = {
+          {"run", *bound.worst}, {"missed", bound.missed}, {"command", sweep.command(*bound.worst)}};
     json["expect"].push_back(one);
   }
   return json;

@@ -6,6 +6,7 @@
 
 #include "runtime/clock/stop_switch.hpp"
 #include "sweep/folder.hpp"
+#include "sweep/peers.hpp"
 #include "sweep/statistics.hpp"
 
 namespace mixloop {
@@ -17,6 +18,8 @@ struct SweepOptions {
   Part part;
   bool merges = false;  ///< what is kept is put together, and nothing run
   bool quiet = false;   ///< no word of how far it is
+  Peers* peers = nullptr;  ///< processes that this one leads
+  double patience = 10;    ///< s, with them
 };
 
 /// A sweep that was gone through, or a part of it.

@@ -67,8 +67,9 @@ std::string folder_of(const SuiteRun& run, const TrackLine& options) {
 /// Always in this process: its runs are those of `simulate`.
 Result tracked_sweep(const SuiteRun& run, const TrackLine& options, const StopSwitch& stop) {
   if (options.attach)
-    throw InputError("out_of_range", {run.file},
-                     "a sweep runs in this process, and listens to no other; expected track without --attach");
+    throw InputError(
+        "out_of_range", {run.file},
+        "a sweep runs in this process, and listens to no other; expected track without --attach");
   SweepRequest request = read_sweep(run.file);
   for (const Override& one : options.overrides()) request.overrides.push_back(one);
   const Sweep sweep(run.name, request, options.evaluation, false);
@@ -135,7 +136,8 @@ void print_sweep(const Result& result) {
   const SweepFigures& sweep = *result.sweep;
   std::string text = fmt::format("{} of {} runs", sweep.done, sweep.runs);
   for (std::size_t i = 0; i < std::min<std::size_t>(sweep.figures.size(), 2); ++i)
-    text += fmt::format(", {} {:.6g} {}", sweep.figures[i].name, sweep.figures[i].value, sweep.figures[i].unit);
+    text +=
+        fmt::format(", {} {:.6g} {}", sweep.figures[i].name, sweep.figures[i].value, sweep.figures[i].unit);
   for (const auto& line : result.judged.missed) text += "; " + line;
   fmt::print("{:<12} {:<28} {}\n", name_of(result.judged.verdict), result.experiment, text);
   flush_standard_output();

@@ -240,8 +240,7 @@ ExperimentScenes load_scenes(const NodePtr& document, const std::filesystem::pat
   scenes.scene = scenes.controller_scene = std::make_shared<const Scene>(load_scene(scenes.document));
   const NodePtr controller = root.find("controller");
   if (const NodePtr other = controller ? find_entry(*controller, "scene") : nullptr) {
-    scenes.controller_scene =
-        std::make_shared<const Scene>(load_scene(scene_document_at(*other, base, {})));
+    scenes.controller_scene = std::make_shared<const Scene>(load_scene(scene_document_at(*other, base, {})));
     require_same_motors(*scenes.controller_scene, *scenes.scene, other->place);
   }
   return scenes;
@@ -277,10 +276,10 @@ Experiment read_experiment(const NodePtr& document, const std::filesystem::path&
         "control: held");
   experiment.parameters = parameter_values(scene, root.find("parameters"), scene.default_parameters());
   experiment.plant_parameters = parameter_values(scene, parameters_in(plant), experiment.parameters);
-  experiment.controller_parameters = parameter_values(
-      *experiment.controller_scene, parameters_in(controller),
-      experiment.controller_scene != experiment.scene ? experiment.controller_scene->default_parameters()
-                                                      : experiment.parameters);
+  experiment.controller_parameters = parameter_values(*experiment.controller_scene, parameters_in(controller),
+                                                      experiment.controller_scene != experiment.scene
+                                                          ? experiment.controller_scene->default_parameters()
+                                                          : experiment.parameters);
   require_inertia(experiment.scene, experiment.plant_parameters);
   read_faults_and_seed(root, experiment);
   if (const NodePtr limits = root.find("limits")) read_limits(limits, experiment);
@@ -333,10 +332,9 @@ Plan make_plan(const Experiment& experiment) {
 
 Controller make_controller(const Experiment& experiment) {
   const auto& scene = experiment.controller_scene;
-  const auto equations =
-      has_gains(experiment.controller.law)
-          ? equations_for(experiment, scene, {Purpose::mass_times, Purpose::bias})
-          : equations_for(experiment, scene, {});
+  const auto equations = has_gains(experiment.controller.law)
+                             ? equations_for(experiment, scene, {Purpose::mass_times, Purpose::bias})
+                             : equations_for(experiment, scene, {});
   return Controller({equations, experiment.controller_parameters}, experiment.controller,
                     seen_coordinates(experiment));
 }

@@ -21,9 +21,9 @@ struct Measures {
   double time_of_max_position_error = kNeverMeasured;  ///< s
   double final_position_error = kNeverMeasured;        ///< m, at the last tick
   double rms_position_error = kNeverMeasured;          ///< m
-  Vector max_torque;                  ///< n_u, N m or N, largest magnitude of each motor's commanded torque
-  std::int64_t ticks = 0;             ///< the last tick recorded; N where the run is whole
-  std::string trajectory_sha256;      ///< of the doubles t, psi, psi', tau of ticks 0 to `ticks`; or empty
+  Vector max_torque;              ///< n_u, N m or N, largest magnitude of each motor's commanded torque
+  std::int64_t ticks = 0;         ///< the last tick recorded; N where the run is whole
+  std::string trajectory_sha256;  ///< of the doubles t, psi, psi', tau of ticks 0 to `ticks`; or empty
   /// s: from there on the position error was within what RecorderSettings say, to the last tick.
   double settled_at = kNeverMeasured;
   std::optional<double> diverged_at;  ///< s

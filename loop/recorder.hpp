@@ -21,8 +21,8 @@ inline Evaluation told_by(const Experiment& experiment) {
 
 /// What a recorder does beside judging a run.
 struct RecorderSettings {
-  bool knows_work = true;   ///< the motors' work is told; else there is no energy drift
-  bool keeps_ticks = true;  ///< else the last two alone, and there is no trajectory_sha256
+  bool knows_work = true;                     ///< the motors' work is told; else there is no energy drift
+  bool keeps_ticks = true;                    ///< else the last two alone, and there is no trajectory_sha256
   std::optional<double> settled_within = {};  ///< m: it tells from when on the position error is so small
 };
 
@@ -99,7 +99,7 @@ class Recorder {
   std::size_t loops_;  ///< numbers of a LoopMotion; 0 where no coordinates are switched
   double rate_hz_, limit_;
   std::int64_t kept_;  ///< ticks; of those past them the last two
-  RecordRows rows_;  ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work, loops
+  RecordRows rows_;    ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work, loops
   /// Changes kept of injected faults; past them the latest one stands for those before it.
   static constexpr std::size_t kInjectedKept = 1000;
   std::size_t row_of_conditions_ = 0;

@@ -18,7 +18,8 @@ std::string scalar(const std::string& text) {
   const bool is_plain = !text.empty() && !is_null && text.find_first_not_of(kPlain) == std::string::npos &&
                         std::string_view(" -*.").find(text.front()) == std::string_view::npos &&
                         text.back() != ' ';
-  const bool is_number = !text.empty() && std::string_view("-.").find(text.front()) != std::string_view::npos &&
+  const bool is_number = !text.empty() &&
+                         std::string_view("-.").find(text.front()) != std::string_view::npos &&
                          text.size() > 1 && text[1] >= '0' && text[1] <= '9' &&
                          text.find_first_not_of(kPlain) == std::string::npos && text.back() != ' ';
   if (is_plain || is_number) return text;

@@ -58,7 +58,8 @@ class PathReader {
 };
 
 /// A copy of `node` along the path, all else shared: an alias's other uses keep their value.
-NodePtr replaced(const NodePtr& node, std::span<const PathStep> steps, const NodePtr& value, const Place& place) {
+NodePtr replaced(const NodePtr& node, std::span<const PathStep> steps, const NodePtr& value,
+                 const Place& place) {
   if (steps.empty()) return value;
   const PathStep& step = steps.front();
   auto copy = node ? std::make_shared<Node>(*node) : std::make_shared<Node>();

@@ -26,14 +26,9 @@ Crew::~Crew() { failed_ = true; }
 void Crew::work() {
   const auto goes_on = [&] { return !failed_ && hands_.goes_on(); };
   while (goes_on()) {
-    Runs runs;
-    {
-      const std::lock_guard lock(mutex_);
-      runs = hands_.next();
-    }
+    const Runs runs = hands_.next();
     if (runs.count == 0) return;
     const auto outcomes = run_batch(setup_, telling_, engine_, runs.first, runs.count, goes_on);
-    const std::lock_guard lock(mutex_);
     if (!failed_) hands_.brought(outcomes);
   }
 }

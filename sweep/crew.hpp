@@ -15,15 +15,15 @@
 
 namespace mixloop {
 
-/// Threads that go through the runs of a sweep, as long as there are some. Whoever has it looks after what they
-/// bring in the meantime.
+/// Threads that go through the runs of a sweep, as long as there are some. Whoever has it looks after what
+/// they bring in the meantime.
 class Crew {
  public:
-  /// What it asks for and brings, one thread at a time.
+  /// What it asks for and brings, several threads at a time.
   struct Hands {
-    std::function<Runs()> next;                               ///< waits for some; none: there are no more
+    std::function<Runs()> next;  ///< waits for some; none: there are no more
     std::function<void(const std::vector<Outcome>&)> brought;
-    std::function<bool()> goes_on;                            ///< false: what is begun is brought, and no more
+    std::function<bool()> goes_on;  ///< false: what is begun is brought, and no more
   };
 
   Crew(const Setup& setup, const Telling& telling, const Engine& engine, int threads, Hands hands);
@@ -32,7 +32,8 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// Waits so long, or until all threads have ended. Whether they have; rethrows what ended one of them.
+  /// Waits so long, or until all threads have ended; once they have, at once. Whether they have; rethrows what
+  /// ended one of them.
   bool ended_within(std::chrono::milliseconds time);
 
  private:
@@ -42,7 +43,6 @@ class Crew {
   const Telling& telling_;
   const Engine& engine_;
   Hands hands_;
-  std::mutex mutex_;  ///< of the hands
   std::mutex state_;
   std::condition_variable changed_;
   int at_work_;

@@ -54,9 +54,9 @@ Design::Design(Settings settings)
   }
   const std::size_t dimensions = settings.sampled.size();
   if (dimensions > Sobol::kMostDimensions)
-    throw InputError("too_large", variations_.back().place,
-                     fmt::format("{} entries are sampled; expected {} at most", dimensions,
-                                 Sobol::kMostDimensions));
+    throw InputError(
+        "too_large", variations_.back().place,
+        fmt::format("{} entries are sampled; expected {} at most", dimensions, Sobol::kMostDimensions));
   if (spread_ == Spread::sobol) sobol_.emplace(dimensions, chance_);
   if (spread_ == Spread::latin)
     for (std::size_t i = 0; i < dimensions; ++i) strata_.emplace_back(draws_, chance_, i);

@@ -20,34 +20,35 @@
 namespace mixloop {
 namespace {
 
-std::string own_name() {
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
-  return fmt::format("process {} on {}", ::getpid(), host.data());
-}
-
 /// Of a sweep's file of settings: scalars by their keys.
 void require_same(const NodePtr& kept, const Sweep& sweep) {
   for (const auto& [key, value] : sweep.settings()) {
     if (key == "experiment") continue;  // by its contents: it may have been called from elsewhere
     const NodePtr found = kept->kind == Node::Kind::mapping ? find_entry(*kept, key) : nullptr;
     if (found && found->text == value) continue;
-    throw InputError("another_sweep", found ? found->place : kept->place,
-                     fmt::format("the folder keeps a sweep with {}, and now {} is asked for; expected the "
-                                 "same settings to go on with it, or another folder (--out)",
-                                 found ? key + ": " + in_quotes(found->text) : "no " + in_quotes(key),
-                                 in_quotes(value)));
+    throw InputError(
+        "another_sweep", found ? found->place : kept->place,
+        fmt::format("the folder keeps a sweep with {}, and now {} is asked for; expected the "
+                    "same settings to go on with it, or another folder (--out)",
+                    found ? key + ": " + in_quotes(found->text) : "no " + in_quotes(key), in_quotes(value)));
   }
   for (const auto& entry : kept->entries)
     if (std::ranges::find(sweep.settings(), entry.key, &Sweep::Settings::value_type::first) ==
         sweep.settings().end())
-      throw InputError("another_sweep", entry.place,
-                       fmt::format("the folder keeps a sweep with {}, which isn't asked for now; expected the "
-                                   "same settings to go on with it, or another folder (--out)",
-                                   in_quotes(entry.key)));
+      throw InputError(
+          "another_sweep", entry.place,
+          fmt::format("the folder keeps a sweep with {}, which isn't asked for now; expected the "
+                      "same settings to go on with it, or another folder (--out)",
+                      in_quotes(entry.key)));
 }
 
 }  // namespace
+
+std::string own_name() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("process {} on {}", ::getpid(), host.data());
+}
 
 FileLock::FileLock(std::filesystem::path file, Kind kind, bool waits)
     : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {

@@ -14,6 +14,9 @@ struct Part {
   bool is_whole() const { return of == 1; }
 };
 
+/// "process 123 on host".
+std::string own_name();
+
 /// A file that one process at a time may have.
 class FileLock {
  public:

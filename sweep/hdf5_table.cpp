@@ -71,7 +71,8 @@ class Column {
   void flush() {
     hsize_t count = rows_.size() / width_;
     if (count == 0) return;
-    const Handle there(H5Dget_space(dataset_), H5Sclose), here(H5Screate_simple(1, &count, nullptr), H5Sclose);
+    const Handle there(H5Dget_space(dataset_), H5Sclose),
+        here(H5Screate_simple(1, &count, nullptr), H5Sclose);
     require(H5Sselect_hyperslab(there, H5S_SELECT_SET, &written_, nullptr, &count, nullptr));
     require(H5Dwrite(dataset_, type_, here, there, H5P_DEFAULT, rows_.data()));
     written_ += count;

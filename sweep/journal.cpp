@@ -116,7 +116,8 @@ std::int64_t scan(const std::filesystem::path& file, const std::string& sweep,
     if (bytes.size() < sizeof(RecordHead)) return offset;
     RecordHead record;
     std::memcpy(&record, bytes.data(), sizeof record);
-    if (record.mark != kMark || record.count < 1 || record.size < 0 || record.size > kMostBytes) return offset;
+    if (record.mark != kMark || record.count < 1 || record.size < 0 || record.size > kMostBytes)
+      return offset;
     const std::int64_t outcomes = offset + static_cast<std::int64_t>(sizeof record);
     const std::string kept = reader.at(outcomes, record.size);
     if (std::ssize(kept) < record.size || checksum_of(record, kept) != record.checksum) return offset;

@@ -14,9 +14,9 @@ namespace mixloop {
 std::string bytes_of(std::span<const Outcome> outcomes);
 std::vector<Outcome> outcomes_in(std::string_view bytes, std::int64_t first, std::size_t values);
 
-/// What became of a sweep's runs, kept as they come: a file to which records of runs in a row are appended, each
-/// with a checksum. Whatever ends the process, what was appended stays; a record that was cut off is cut off at
-/// the next start. One process at a time has it.
+/// What became of a sweep's runs, kept as they come: a file to which records of runs in a row are appended,
+/// each with a checksum. Whatever ends the process, what was appended stays; a record that was cut off is cut
+/// off at the next start. One process at a time has it.
 class Journal {
  public:
   /// Opens it, or begins it, for the sweep whose settings have the hash `sweep`. Throws

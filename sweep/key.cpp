@@ -37,8 +37,7 @@ class KeyWalk {
       default:
         fail("invalid_path", fmt::format("{} is a single value; expected a key that ends with it", before_));
     }
-    if (step.is_index)
-      fail("invalid_path", fmt::format("{} is no list; expected a name behind it", before_));
+    if (step.is_index) fail("invalid_path", fmt::format("{} is no list; expected a name behind it", before_));
     const NodePtr inner = node && node->kind == Node::Kind::mapping ? find_entry(*node, step.key) : nullptr;
     const Form& of = form.kind == Form::Kind::named ? named(form, node, step.key) : keyed(form, step.key);
     before_ = in_quotes(step.key);
@@ -66,7 +65,7 @@ class KeyWalk {
     if (before_.ends_with("parameters'")) names.insert(names.end(), parameters_.begin(), parameters_.end());
     if (std::ranges::find(names, name) == names.end())
       fail("unknown_key",
-             fmt::format("{} has no entry {}{}", before_, in_quotes(name), suggestion(name, names)));
+           fmt::format("{} has no entry {}{}", before_, in_quotes(name), suggestion(name, names)));
     return form.of.front();
   }
 
@@ -76,11 +75,12 @@ class KeyWalk {
         node->kind == Node::Kind::mapping)
       return go(form.of.front(), node, steps);
     if (!step.is_index)
-      fail("invalid_path", fmt::format("{} is a list; expected which item, e.g. [0] of the first one", before_));
+      fail("invalid_path",
+           fmt::format("{} is a list; expected which item, e.g. [0] of the first one", before_));
     const std::size_t size = node && node->kind == Node::Kind::sequence ? node->items.size() : 0;
     if (step.index >= size)
       fail("invalid_path", fmt::format("{} has no item [{}]: it is {}", before_, step.index,
-                                         node ? describe(*node) : "not there"));
+                                       node ? describe(*node) : "not there"));
     go(form.of.front(), node->items[step.index], steps.subspan(1));
   }
 

@@ -10,7 +10,8 @@
 
 namespace mixloop {
 
-/// How a run of a sweep ended: beside a run's own verdicts, `refused` is one that can't be run with its values.
+/// How a run of a sweep ended: beside a run's own verdicts, `refused` is one that can't be run with its
+/// values.
 enum class RunEnd : std::uint8_t { held, missed, diverged, safe_state, fault, refused };
 std::string_view name_of(RunEnd end);
 inline constexpr std::size_t kRunEnds = 6;

@@ -100,8 +100,9 @@ SweepRequest read_sweep(const std::filesystem::path& file) {
   request.experiment = file.parent_path() / text_of(*experiment, "the path of an experiment file");
   std::error_code failure;
   if (!std::filesystem::is_regular_file(request.experiment, failure))
-    throw InputError("no_such_file", experiment->place,
-                     "no experiment at " + describe(*experiment) + " (its path counts from this file's folder)");
+    throw InputError(
+        "no_such_file", experiment->place,
+        "no experiment at " + describe(*experiment) + " (its path counts from this file's folder)");
   Design::Settings& design = request.design;
   if (const NodePtr set = root.find("set")) request.overrides = read_set(set);
   if (const NodePtr vary = root.find("vary"))
@@ -123,8 +124,7 @@ SweepRequest read_sweep(const std::filesystem::path& file) {
   if (const NodePtr within = root.find("settled_within"))
     request.settled_within = number_of(*within, kLength, "what counts as settled");
   if (const NodePtr expect = root.find("expect"))
-    for (const auto& item : expect->kind == Node::Kind::mapping ? std::vector<NodePtr>{expect}
-                                                                : items_of(expect, "what is expected"))
+    for (const auto& item : items_of(expect, "what is expected of shares of the runs"))
       request.expect.push_back(read_bound(item));
   return request;
 }

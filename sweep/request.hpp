@@ -13,8 +13,8 @@ namespace mixloop {
 
 /// A bound on a share of a sweep's runs.
 struct ShareBound {
-  double share = 1;      ///< so many of them at least, 0 to 1
-  NodePtr expected;      ///< hold this: an experiment's `expect`, without `share`
+  double share = 1;  ///< so many of them at least, 0 to 1
+  NodePtr expected;  ///< hold this: an experiment's `expect`, without `share`
   Place place;
 };
 

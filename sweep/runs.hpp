@@ -17,7 +17,8 @@ struct Runs {
 /// Those of runs 0 to `all` - 1 that none of `done` has, in order; `done` may overlap and lie anyhow.
 std::vector<Runs> without(std::int64_t all, std::vector<Runs> done);
 
-/// A share of a sweep's runs: batches of `batch` runs, of which every `of`th is taken, from number `index` on.
+/// A share of a sweep's runs: batches of `batch` runs, of which every `of`th is taken, from number `index`
+/// on.
 struct Share {
   std::int64_t batch = 1, index = 0, of = 1;
 };

@@ -10,7 +10,8 @@
 
 namespace mixloop {
 
-/// A run that is ready to go: its experiment, the integrator settled, and the plan, which others may have too.
+/// A run that is ready to go: its experiment, the integrator settled, and the plan, which others may have
+/// too.
 struct PreparedRun {
   std::int64_t run = 0;
   Experiment experiment;

@@ -44,7 +44,8 @@ class Gathering {
   void take(const Outcome& outcome) {
     ++statistics_.runs;
     const auto end = static_cast<std::size_t>(outcome.end);
-    if (statistics_.ends[end]++ == 0) statistics_.first[end] = outcome.run, statistics_.code[end] = outcome.code;
+    if (statistics_.ends[end]++ == 0)
+      statistics_.first[end] = outcome.run, statistics_.code[end] = outcome.code;
     for (std::size_t i = 0; i < running_.size(); ++i) take(i, outcome);
     if (!excess_.empty()) judge(outcome);
   }
@@ -58,8 +59,9 @@ class Gathering {
     }
     for (std::size_t i = 0; i < excess_.size(); ++i) {
       BoundStatistics& bound = statistics_.bounds[i];
-      bound.is_held = statistics_.runs > 0 && static_cast<double>(bound.held) >=
-                                                  sweep_.bounds()[i].share * static_cast<double>(statistics_.runs);
+      bound.is_held =
+          statistics_.runs > 0 &&
+          static_cast<double>(bound.held) >= sweep_.bounds()[i].share * static_cast<double>(statistics_.runs);
     }
     return statistics_;
   }

@@ -27,8 +27,9 @@ struct ColumnStatistics {
 struct BoundStatistics {
   std::int64_t held = 0;  ///< runs
   bool is_held = false;
-  std::optional<std::int64_t> worst;  ///< of those that miss it: that diverged first, else the most past a bound
-  std::vector<std::string> missed;    ///< by the worst
+  std::optional<std::int64_t>
+      worst;  ///< of those that miss it: that diverged first, else the most past a bound
+  std::vector<std::string> missed;  ///< by the worst
 };
 
 struct Statistics {

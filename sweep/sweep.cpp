@@ -73,6 +73,8 @@ Sweep::Sweep(std::string name, const SweepRequest& request, Evaluation evaluatio
   settings_.emplace_back("settled_within",
                          request.settled_within ? fmt::format("{} m", *request.settled_within) : "none");
   settings_.emplace_back("hashes", hashes ? "yes" : "no");
+  // The interpreter and machine code have the same bits, the procedure itself has others.
+  settings_.emplace_back("equations", evaluation == Evaluation::reference ? "reference" : "program");
   std::string all;
   for (const auto& [key, value] : settings_)
     if (key != "experiment") all += key + ": " + value + "\n";

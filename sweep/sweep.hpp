@@ -20,8 +20,8 @@ class Sweep {
   /// What makes a sweep this one: in the order of its file.
   using Settings = std::vector<std::pair<std::string, std::string>>;
 
-  /// `name`: of its file, or of the experiment. Throws InputError; also where none of a few runs looked at can
-  /// be run, as a value of the wrong kind makes all of them.
+  /// `name`: of its file, or of the experiment. Throws InputError; also where none of a few runs looked at
+  /// can be run, as a value of the wrong kind makes all of them.
   Sweep(std::string name, const SweepRequest& request, Evaluation evaluation, bool hashes);
 
   const std::string& name() const { return name_; }

@@ -11,9 +11,10 @@ namespace mixloop {
 /// What a sweep's table is made of, run by run: KeptRuns::each.
 using EachRun = std::function<void(const std::function<void(const Outcome&)>& told)>;
 
-/// Writes the table as CSV (RFC 4180), a row a run in their order: run, what was varied, how it ended, what was
-/// measured, in SI but for what was varied, whose unit is the one that was written; what was never measured is
-/// empty. Numbers read back to the same double. Rows are never held. Throws RunFault("cannot_write").
+/// Writes the table as CSV (RFC 4180), a row a run in their order: run, what was varied, how it ended, what
+/// was measured, in SI but for what was varied, whose unit is the one that was written; what was never
+/// measured is empty. Numbers read back to the same double. Rows are never held. Throws
+/// RunFault("cannot_write").
 void write_csv(const std::filesystem::path& file, const Sweep& sweep, const EachRun& each);
 
 /// Whether this build can write HDF5.

@@ -104,19 +104,19 @@ Variation range_of(const Written& written, std::size_t dots) {
   if (error != std::errc() || end != many.data() + many.size() || many.empty())
     written.fail("invalid_range", in_quotes(many) + " is no number of values; " + kExpected);
   if (count < 1 || count > kMostValues)
-    written.fail("out_of_range", fmt::format("{} values of '{}'; expected 1 to {}", count, written.key,
-                                               kMostValues));
+    written.fail("out_of_range",
+                 fmt::format("{} values of '{}'; expected 1 to {}", count, written.key, kMostValues));
   auto ends = numbers_in({trimmed(std::string_view(value).substr(0, dots)),
                           trimmed(std::string_view(value).substr(dots + 2, colon - dots - 2))});
   if (!ends)
     written.fail("invalid_range",
-                   in_quotes(value) + " has not two numbers of one unit; " + std::string(kExpected));
+                 in_quotes(value) + " has not two numbers of one unit; " + std::string(kExpected));
   const double from = ends->numbers[0], to = ends->numbers[1];
   if ((from == to) != (count == 1))
     written.fail("out_of_range",
-                   fmt::format("{} values from {} to {}: an empty range; expected two ends that differ, and "
-                               "two values or more",
-                               count, from, to));
+                 fmt::format("{} values from {} to {}: an empty range; expected two ends that differ, and "
+                             "two values or more",
+                             count, from, to));
   ends->numbers.clear();
   for (std::int64_t i = 0; i < count; ++i) {
     const double share = count == 1 ? 0 : static_cast<double>(i) / static_cast<double>(count - 1);
@@ -128,8 +128,9 @@ Variation range_of(const Written& written, std::size_t dots) {
 Variation listed(const Written& written, const std::vector<std::string>& texts) {
   for (const auto& text : texts)
     if (text.empty())
-      written.fail("wrong_size", "no value for '" + written.key + "', or none between two commas; expected "
-                                   "values parted by commas, e.g. 1,2,5 kg");
+      written.fail("wrong_size", "no value for '" + written.key +
+                                     "', or none between two commas; expected "
+                                     "values parted by commas, e.g. 1,2,5 kg");
   if (auto numbers = numbers_in(texts)) return written.named(std::move(*numbers));
   Variation listed;
   listed.texts = texts;
@@ -148,8 +149,7 @@ Variation sampled(const Written& written) {
   const std::size_t open = value.find('(');
   const std::string name = trimmed(std::string_view(value).substr(0, open));
   if (std::ranges::find(kNames, name) == kNames.end())
-    written.fail("unknown_value",
-                   in_quotes(name) + " is nothing to sample from" + suggestion(name, kNames));
+    written.fail("unknown_value", in_quotes(name) + " is nothing to sample from" + suggestion(name, kNames));
   if (open == std::string::npos || !value.ends_with(')'))
     written.fail("invalid_range", in_quotes(value) + " lacks its numbers; " + kExpected);
   auto numbers = numbers_in(parts_of(std::string_view(value).substr(open + 1, value.size() - open - 2)));
@@ -158,10 +158,10 @@ Variation sampled(const Written& written) {
   const bool is_normal = name == "normal";
   const double first = numbers->numbers[0], second = numbers->numbers[1];
   if (is_normal ? !(second > 0) : !(first < second))
-    written.fail("out_of_range", is_normal
-                                       ? fmt::format("a standard deviation of {}; expected more than 0", second)
-                                       : fmt::format("from {} to {}: an empty range; expected from below to",
-                                                     first, second));
+    written.fail("out_of_range",
+                 is_normal
+                     ? fmt::format("a standard deviation of {}; expected more than 0", second)
+                     : fmt::format("from {} to {}: an empty range; expected from below to", first, second));
   numbers->numbers.clear();
   numbers->distribution = {.kind = is_normal ? Distribution::Kind::normal : Distribution::Kind::uniform,
                            .first = first,
@@ -173,7 +173,9 @@ Written written_in(const std::string& text, const std::string& option, const cha
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError("invalid_override", {option + " " + text}, std::string("expected ") + example);
-  Written written{trimmed(std::string_view(text).substr(0, equals)), trimmed(std::string_view(text).substr(equals + 1)), {}};
+  Written written{trimmed(std::string_view(text).substr(0, equals)),
+                  trimmed(std::string_view(text).substr(equals + 1)),
+                  {}};
   written.place = {option + " " + written.key};
   return written;
 }
@@ -189,8 +191,9 @@ std::string Variation::text_of(double number) const {
 }
 
 Variation parse_varied(const std::string& text) {
-  return varied(written_in(text, "--vary", "key=from..to:count or key=value,value,..., e.g. --vary "
-                                           "parameters.payload='0..5 kg:11'"));
+  return varied(written_in(text, "--vary",
+                           "key=from..to:count or key=value,value,..., e.g. --vary "
+                           "parameters.payload='0..5 kg:11'"));
 }
 
 Variation parse_sampled(const std::string& text) {
@@ -212,7 +215,8 @@ Variation read_varied(const Node::Entry& entry) {
 }
 
 Variation read_sampled(const Node::Entry& entry) {
-  return sampled({entry.key, trimmed(mixloop::text_of(*entry.value, "what is sampled from")), entry.value->place});
+  return sampled(
+      {entry.key, trimmed(mixloop::text_of(*entry.value, "what is sampled from")), entry.value->place});
 }
 
 }  // namespace mixloop

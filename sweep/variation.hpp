@@ -10,13 +10,14 @@
 
 namespace mixloop {
 
-/// An entry that a sweep varies, and the values that it takes: numbers of one unit, listed or drawn, or texts.
+/// An entry that a sweep varies, and the values that it takes: numbers of one unit, listed or drawn, or
+/// texts.
 struct Variation {
   std::string key;  ///< as --set takes it
   Place place;
-  std::string unit;                         ///< behind each number, as it was written; may be empty
-  std::vector<double> numbers;              ///< listed
-  std::vector<std::string> texts;           ///< listed, of those that aren't all numbers
+  std::string unit;                          ///< behind each number, as it was written; may be empty
+  std::vector<double> numbers;               ///< listed
+  std::vector<std::string> texts;            ///< listed, of those that aren't all numbers
   std::optional<Distribution> distribution;  ///< drawn
 
   bool is_number() const { return texts.empty(); }

@@ -22,7 +22,8 @@ TEST(SweepKeys, WhatIsNoEntryIsRefusedWithTheNearestOne) {
     SCOPED_TRACE(text);
     expect_refused_with(code, message, [&] { keyed(varied(text)); });
   };
-  refused("controler.kp=1,2", "unknown_key", "--vary controler.kp: the experiment has no key 'controler'; did you mean 'controller'?");
+  refused("controler.kp=1,2", "unknown_key",
+          "--vary controler.kp: the experiment has no key 'controler'; did you mean 'controller'?");
   refused("controller.kpp=1,2", "unknown_key", "did you mean 'kp'?");
   refused("parameters.paylod=1,2", "unknown_key", "did you mean 'payload'?");
   refused("plant.parameters.paylod=1,2", "unknown_key", "did you mean 'payload'?");
@@ -38,9 +39,10 @@ TEST(SweepKeys, WhatIsNoEntryIsRefusedWithTheNearestOne) {
 }
 
 TEST(SweepKeys, EntriesThatTheFileLacksMayBeVariedWhereTheyMayStand) {
-  for (const char* text : {"plant.command_delay=0,0.1 ms", "plant.torque_limit=[2,5,3],[3,6,4]", "seed=1,2",
-                           "plant.parameters.payload=1,2 kg", "scene.constants.L1=30,31 cm", "plant.control=held",
-                           "scene.bodies[6].mass=1,2 kg", "path.line.to[0]=-0.3,-0.2"}) {
+  for (const char* text :
+       {"plant.command_delay=0,0.1 ms", "plant.torque_limit=[2,5,3],[3,6,4]", "seed=1,2",
+        "plant.parameters.payload=1,2 kg", "scene.constants.L1=30,31 cm", "plant.control=held",
+        "scene.bodies[6].mass=1,2 kg", "path.line.to[0]=-0.3,-0.2"}) {
     SCOPED_TRACE(text);
     EXPECT_NO_THROW(keyed(varied(text)));
   }

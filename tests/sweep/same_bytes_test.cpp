@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A run of a sweep is, to the bit, what simulate makes of the experiment that is written with its values; and a
-// table has the same bytes however its runs are split.
+// A run of a sweep is, to the bit, what simulate makes of the experiment that is written with its values; and
+// a table has the same bytes however its runs are split.
 #include <gmock/gmock.h>
 
 #include "sweep/go_through.hpp"
@@ -64,8 +64,8 @@ TEST(SweptRun, AlsoWhereTheSceneThePathOrTheIntegratorIsVaried) {
   SweepRequest request = short_line();
   request.design.sampled = {};
   request.design.varied = {parse_varied("scene.constants.L1=30 cm,31 cm"),
-                           parse_varied("path.line.to[0]=0.29,0.288"), parse_varied("plant.integrator=rk4,auto"),
-                           parse_varied("rate=1000 Hz,2000 Hz")};
+                           parse_varied("path.line.to[0]=0.29,0.288"),
+                           parse_varied("plant.integrator=rk4,auto"), parse_varied("rate=1000 Hz,2000 Hz")};
   expect_written_runs_are_the_same(request, {0, 6, 9, 15});
 }
 
@@ -76,7 +76,8 @@ TEST(SweptRun, AlsoOfClosuresThatSwitchTheirCoordinates) {
   request.design.varied = {parse_varied("plant.substeps=1,2")};
   const Sweep sweep = sweep_of(request);
   const auto outcomes = run_batch(sweep.setup(), sweep.telling(), run_one_by_one, 0, 2, [] { return true; });
-  Experiment set = load_experiment(request.experiment, {{"duration", "0.2 s"}, {"expect", "{}"}, {"plant.substeps", "2"}});
+  Experiment set =
+      load_experiment(request.experiment, {{"duration", "0.2 s"}, {"expect", "{}"}, {"plant.substeps", "2"}});
   set.evaluation = Evaluation::interpreter;
   EXPECT_EQ(outcomes[1].sha256, simulated(set).trajectory_sha256);
 }
@@ -88,10 +89,10 @@ class SplitSweep : public testing::Test {
     const ScratchFolder folder;
     for (const Part& part : parts) {
       const SweepFolder kept(folder.path(), sweep, part);
-      go_through(sweep, kept, part, run_one_by_one, threads, goes_on, [](const SweepProgress&) {});
+      go_through(sweep, kept, part, {.threads = threads, .goes_on = goes_on});
     }
     const SweepFolder all(folder.path(), sweep, {});
-    go_through(sweep, all, {}, run_one_by_one, threads, [] { return true; }, [](const SweepProgress&) {});
+    go_through(sweep, all, {}, {.threads = threads});
     const KeptRuns runs(all.journals(), sweep.sha256(), sweep.telling().columns.size());
     const EachRun each = [&](const auto& told) { runs.each(told); };
     write_csv(folder.path() / "table.csv", sweep, each);
@@ -125,8 +126,11 @@ TEST_F(SplitSweep, HasTheSameBytes) {
 TEST_F(SplitSweep, TwoInOneFolderAreRefused) {
   const ScratchFolder folder;
   const SweepFolder first(folder.path(), sweep, {});
-  expect_refused_with("in_use", "process " + std::to_string(getpid()), [&] { SweepFolder(folder.path(), sweep, {}); });
-  expect_refused_with("in_use", "is at work on this sweep", [&] { SweepFolder(folder.path(), sweep, {0, 2}); });
+  expect_refused_with("in_use", "process " + std::to_string(getpid()),
+                      [&] { SweepFolder(folder.path(), sweep, {}); });
+  expect_refused_with("in_use", "is at work on this sweep", [&] {
+    SweepFolder(folder.path(), sweep, {0, 2});
+  });
 }
 
 TEST_F(SplitSweep, AFolderOfOtherSettingsIsRefusedWithWhatDiffers) {
@@ -137,7 +141,8 @@ TEST_F(SplitSweep, AFolderOfOtherSettingsIsRefusedWithWhatDiffers) {
                       [&] { SweepFolder(folder.path(), sweep_of(request, false), {}); });
   request.design.seed = 1;
   request.overrides.push_back({"controller.kp[0]", "99"});
-  expect_refused_with("another_sweep", "experiment_sha256", [&] { SweepFolder(folder.path(), sweep_of(request, false), {}); });
+  expect_refused_with("another_sweep", "experiment_sha256",
+                      [&] { SweepFolder(folder.path(), sweep_of(request, false), {}); });
 }
 
 }  // namespace

@@ -57,7 +57,9 @@ TEST(Variation, AllCombinationsComeTheLastEntryFirst) {
   const auto overrides = design.overrides(4);
   EXPECT_EQ(overrides[0].value, "2");
   EXPECT_EQ(overrides[1].value, "y");
-  expect_refused_with("doubly_defined", "'a' is varied already", [] { Design({.varied = {parse_varied("a.b=1,2"), parse_varied("a=1,2")}}); });
+  expect_refused_with("doubly_defined", "'a' is varied already", [] {
+    Design({.varied = {parse_varied("a.b=1,2"), parse_varied("a=1,2")}});
+  });
   expect_refused_with("missing_key", "nothing is varied", [] { Design({}); });
 }
 
@@ -65,7 +67,8 @@ TEST(Variation, AFileIsReadWithItsPlaces) {
   const ScratchFolder folder;
   folder.write("base.yaml", "scene: x\n");
   const std::string head = "experiment: base.yaml\n";
-  const SweepRequest request = read_sweep(folder.write("a.sweep.yaml", head + R"yaml(set: {controller.kp: [1, 2, 3]}
+  const SweepRequest request =
+      read_sweep(folder.write("a.sweep.yaml", head + R"yaml(set: {controller.kp: [1, 2, 3]}
 vary: {a: "0..5 kg:6", b: [off, stuck], c: [[1, 2], [3, 4]]}
 sample: {d: "normal(1 m, 0.1 m)"}
 runs: 12
@@ -82,10 +85,14 @@ expect: [{share: 0.99, max_position_error: 14 mm}]
   EXPECT_EQ(request.expect[0].share, 0.99);
   EXPECT_THAT(request.design.varied[2].texts, ElementsAre(R"(["1","2"])", R"(["3","4"])"));
   EXPECT_EQ(request.overrides.at(0).value, R"(["1","2","3"])");
-  expect_refused_with("invalid_range", "how many", [&] { read_sweep(folder.write("b.yaml", head + "vary: {a: 1..2}\n")); });
-  expect_refused_with("unknown_key", "did you mean 'vary'", [&] { read_sweep(folder.write("b.yaml", head + "vari: {}\n")); });
-  expect_refused_with("no_such_file", "no experiment at 'none.yaml'", [&] { read_sweep(folder.write("b.yaml", "experiment: none.yaml\n")); });
-  expect_refused_with("out_of_range", "1 at most", [&] { read_sweep(folder.write("b.yaml", head + "expect: {share: 2}\n")); });
+  expect_refused_with("invalid_range", "how many",
+                      [&] { read_sweep(folder.write("b.yaml", head + "vary: {a: 1..2}\n")); });
+  expect_refused_with("unknown_key", "did you mean 'vary'",
+                      [&] { read_sweep(folder.write("b.yaml", head + "vari: {}\n")); });
+  expect_refused_with("no_such_file", "no experiment at 'none.yaml'",
+                      [&] { read_sweep(folder.write("b.yaml", "experiment: none.yaml\n")); });
+  expect_refused_with("out_of_range", "1 at most",
+                      [&] { read_sweep(folder.write("b.yaml", head + "expect: [{share: 2}]\n")); });
 }
 
 }  // namespace
