@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "sweep/kernel/closed_loops.hpp"
 #include "sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -111,7 +112,7 @@ int run(SweepLine& line) {
   if (line.write_run) return write_one(line, sweep);
   if (line.how.peers != nullptr && line.how.peers->rank() > 0) {
     const auto patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * line.how.patience));
-    line.how.peers->leave(follow(*line.how.peers, sweep, run_one_by_one, line.how.threads,
+    line.how.peers->leave(follow(*line.how.peers, sweep, LaneEngine(), line.how.threads,
                                  [&] { return !stop.turned(); }, patience));
     return kHeld;
   }

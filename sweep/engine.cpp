@@ -20,24 +20,27 @@ Outcome failure(std::int64_t run, RunEnd end, const std::string& code, const Tel
           .values = std::vector<double>(telling.columns.size(), kNeverMeasured)};
 }
 
-Outcome outcome_of(const PreparedRun& run, const Telling& telling) {
+Outcome gone_through(const PreparedRun& run, const Telling& telling) {
   RecordedPlant plant(run.experiment, *run.plan,
                       {.keeps_ticks = telling.hashes, .settled_within = telling.settled_within});
   simulate(plant, [](std::int64_t) { return true; });
-  Measures measures = plant.recorder().measures();
-  const Judgement judgement = judge(run.experiment, measures);
-  return {.run = run.run,
-          .end = end_of(judgement, measures),
-          .values = telling.columns.values(measures),
-          .sha256 = std::move(measures.trajectory_sha256)};
+  return outcome_of(run, plant.recorder().measures(), telling);
 }
 
 }  // namespace
 
+Outcome outcome_of(const PreparedRun& run, const Measures& measures, const Telling& telling) {
+  const Judgement judgement = judge(run.experiment, measures);
+  return {.run = run.run,
+          .end = end_of(judgement, measures),
+          .values = telling.columns.values(measures),
+          .sha256 = measures.trajectory_sha256};
+}
+
 std::vector<Outcome> run_one_by_one(std::span<const PreparedRun> runs, const Telling& telling) {
   std::vector<Outcome> outcomes;
   for (const PreparedRun& run : runs) try {
-      outcomes.push_back(outcome_of(run, telling));
+      outcomes.push_back(gone_through(run, telling));
     } catch (const RunFault& fault) {
       outcomes.push_back(failure(run.run, RunEnd::fault, fault.code, telling));
     } catch (const InputError& error) {

@@ -20,6 +20,9 @@ struct Telling {
 /// of each, in their order. Threads have one at once. Every engine gives the same bytes.
 using Engine = std::function<std::vector<Outcome>(std::span<const PreparedRun> runs, const Telling& telling)>;
 
+/// What is told of a run of which this was measured.
+Outcome outcome_of(const PreparedRun& run, const Measures& measures, const Telling& telling);
+
 /// One run after the other, as `mixloop simulate` does it.
 std::vector<Outcome> run_one_by_one(std::span<const PreparedRun> runs, const Telling& telling);
 
