@@ -32,8 +32,8 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// Waits so long, or until all threads have ended; once they have, at once. Whether they have; rethrows what
-  /// ended one of them.
+  /// Waits so long, or until all threads have ended; once they have, at once. Whether they have; rethrows
+  /// what ended one of them.
   bool ended_within(std::chrono::milliseconds time);
 
  private:

@@ -20,16 +20,16 @@ struct SweepProgress {
 struct Going {
   Engine engine = run_one_by_one;
   int threads = 1;
-  Peers* peers = nullptr;  ///< other processes that this one leads
+  Peers* peers = nullptr;                      ///< other processes that this one leads
   std::chrono::milliseconds patience{10'000};  ///< with them
   std::function<bool()> goes_on = [] { return true; };
   std::function<void(const SweepProgress&)> told = [](const SweepProgress&) {};  ///< several times a second
   std::function<void(const std::string&)> said = [](const std::string&) {};
 };
 
-/// Goes through the runs of a part that no journal of the folder has yet, and keeps them in the part's journal.
-/// Ends early where `goes_on` says so, once what is begun is kept. Throws RunFault("cannot_write"), what is kept
-/// being whole.
+/// Goes through the runs of a part that no journal of the folder has yet, and keeps them in the part's
+/// journal. Ends early where `goes_on` says so, once what is begun is kept. Throws RunFault("cannot_write"),
+/// what is kept being whole.
 void go_through(const Sweep& sweep, const SweepFolder& folder, const Part& part, const Going& how);
 
 }  // namespace mixloop

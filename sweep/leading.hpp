@@ -12,8 +12,8 @@
 
 namespace mixloop {
 
-/// The other processes of a sweep, as the one sees them that leads: hands them runs, a few ahead, keeps what they
-/// bring, and hands out again what one has that is silent for `patience`, or says that it can't go on.
+/// The other processes of a sweep, as the one sees them that leads: hands them runs, a few ahead, keeps what
+/// they bring, and hands out again what one has that is silent for `patience`, or says that it can't go on.
 class Leading {
  public:
   /// `said` hears of what a person should know.
@@ -51,8 +51,8 @@ class Leading {
   bool stopped_ = false;
 };
 
-/// What the others do: go through the runs that the leading process hands them, `threads` at a time, until it has no
-/// more. Whether all left together.
+/// What the others do: go through the runs that the leading process hands them, `threads` at a time, until it
+/// has no more. Whether all left together.
 bool follow(Peers& peers, const Sweep& sweep, const Engine& engine, int threads,
             const std::function<bool()>& goes_on, std::chrono::milliseconds patience);
 

@@ -27,9 +27,7 @@ inline std::string message_of(PeerWord word, std::string_view rest = {}) {
   return std::string(1, static_cast<char>(word)) + std::string(rest);
 }
 
-inline std::string bytes_of(const Runs& runs) {
-  return {reinterpret_cast<const char*>(&runs), sizeof runs};
-}
+inline std::string bytes_of(const Runs& runs) { return {reinterpret_cast<const char*>(&runs), sizeof runs}; }
 
 /// Takes them off the front of a message.
 inline Runs runs_in(std::string_view& bytes) {

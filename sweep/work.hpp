@@ -21,8 +21,8 @@ class Work {
 
   /// Some for process `who`; none where all are handed out.
   Runs take(int who);
-  /// Some for a thread of this process, 0: waits while others have some that may come back. None where all are
-  /// done, or it is stopped.
+  /// Some for a thread of this process, 0: waits while others have some that may come back. None where all
+  /// are done, or it is stopped.
   Runs take_or_wait();
   /// What it had in hand, or the first of them. What was taken from it meanwhile is passed over.
   void bring(int who, std::span<const Outcome> outcomes);
