@@ -29,10 +29,11 @@ Peers* peers_here() {
   const auto make = loaded == nullptr ? nullptr : reinterpret_cast<MakePeers>(::dlsym(loaded, kPeersSymbol));
   if (make != nullptr) return make();
   const char* const why = ::dlerror();
-  throw RunFault("missing_part",
-                 std::string("MPI started this process, and this build has no part for it (") +
-                     (why == nullptr ? "no such module" : why) +
-                     "); expected mixloop built with libopenmpi-dev and run with openmpi-bin, or --shard I/N");
+  throw RunFault(
+      "missing_part",
+      std::string("MPI started this process, and this build has no part for it (") +
+          (why == nullptr ? "no such module" : why) +
+          "); expected mixloop built with libopenmpi-dev and run with openmpi-bin, or --shard I/N");
 }
 
 }  // namespace mixloop

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "sweep/kernel/closed_loops.hpp"
 #include "sweep/sweep.hpp"
+#include "sweep/kernel/closed_loops.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -112,8 +112,8 @@ int run(SweepLine& line) {
   if (line.write_run) return write_one(line, sweep);
   if (line.how.peers != nullptr && line.how.peers->rank() > 0) {
     const auto patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * line.how.patience));
-    line.how.peers->leave(follow(*line.how.peers, sweep, LaneEngine(), line.how.threads,
-                                 [&] { return !stop.turned(); }, patience));
+    line.how.peers->leave(follow(
+        *line.how.peers, sweep, LaneEngine(), line.how.threads, [&] { return !stop.turned(); }, patience));
     return kHeld;
   }
   line.how.quiet = line.json;
@@ -166,7 +166,9 @@ void add_sweep_command(CLI::App& app, int& status) {
           "keep table.csv, table.h5 and summary.json in this folder; interrupted or killed, the same "
           "command goes on there")
       ->type_name("DIR");
-  command->add_option("--threads", options->how.threads, "how many runs at a time; one a core, by mpirun one a rank")
+  command
+      ->add_option("--threads", options->how.threads,
+                   "how many runs at a time; one a core, by mpirun one a rank")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command

@@ -16,8 +16,8 @@ struct SweepOptions {
   std::string out;  ///< a folder; empty: nothing is kept
   int threads = 1;
   Part part;
-  bool merges = false;  ///< what is kept is put together, and nothing run
-  bool quiet = false;   ///< no word of how far it is
+  bool merges = false;     ///< what is kept is put together, and nothing run
+  bool quiet = false;      ///< no word of how far it is
   Peers* peers = nullptr;  ///< processes that this one leads
   double patience = 10;    ///< s, with them
 };

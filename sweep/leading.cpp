@@ -41,7 +41,8 @@ void Leading::take(const Peers::Message& message) {
       const std::string_view hash = rest.substr(0, sweep_.sha256().size());
       peer.name += fmt::format(" ({})", rest.substr(hash.size()));
       if (hash != sweep_.sha256())
-        return lose(message.from, "reads other files, or is of another version: expected the same everywhere");
+        return lose(message.from,
+                    "reads other files, or is of another version: expected the same everywhere");
       peer.state = Peer::State::at_work;
       return;
     }
@@ -97,7 +98,8 @@ bool Leading::is_over() const {
 void Leading::end() {
   bool together = true;
   for (std::size_t rank = 1; rank < others_.size(); ++rank)
-    together = together && others_[rank].state != Peer::State::lost && others_[rank].state != Peer::State::starting;
+    together =
+        together && others_[rank].state != Peer::State::lost && others_[rank].state != Peer::State::starting;
   for (std::size_t rank = 1; rank < others_.size(); ++rank)
     if (others_[rank].state != Peer::State::lost)
       peers_.send(static_cast<int>(rank), message_of(PeerWord::end, together ? "1" : "0"));

@@ -37,9 +37,8 @@ Runs Work::take_or_wait() {
 void Work::bring(int who, std::span<const Outcome> outcomes) {
   if (outcomes.empty()) return;
   const std::lock_guard lock(mutex_);
-  const auto its = std::ranges::find_if(in_hand_, [&](const InHand& one) {
-    return one.who == who && one.runs.first == outcomes.front().run;
-  });
+  const auto its = std::ranges::find_if(
+      in_hand_, [&](const InHand& one) { return one.who == who && one.runs.first == outcomes.front().run; });
   if (its == in_hand_.end()) return;
   keep_(outcomes);
   done_ += std::ssize(outcomes);

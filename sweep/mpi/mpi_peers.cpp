@@ -26,7 +26,8 @@ class MpiPeers final : public mixloop::Peers {
   void send(int to, std::string text) override {
     sent_.remove_if([](Sent& sent) { return sent.is_over(); });
     Sent& sent = sent_.emplace_back(Sent{std::move(text), MPI_REQUEST_NULL});
-    MPI_Isend(sent.text.data(), static_cast<int>(sent.text.size()), MPI_BYTE, to, 0, MPI_COMM_WORLD, &sent.request);
+    MPI_Isend(sent.text.data(), static_cast<int>(sent.text.size()), MPI_BYTE, to, 0, MPI_COMM_WORLD,
+              &sent.request);
   }
 
   std::optional<Message> receive() override {
@@ -37,7 +38,8 @@ class MpiPeers final : public mixloop::Peers {
     if (probed != MPI_SUCCESS || arrived == 0) return std::nullopt;
     MPI_Get_count(&status, MPI_BYTE, &size);
     Message message{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
-    const int received = MPI_Recv(message.text.data(), size, MPI_BYTE, status.MPI_SOURCE, 0, MPI_COMM_WORLD, &status);
+    const int received =
+        MPI_Recv(message.text.data(), size, MPI_BYTE, status.MPI_SOURCE, 0, MPI_COMM_WORLD, &status);
     if (received != MPI_SUCCESS) return std::nullopt;
     return message;
   }

@@ -90,6 +90,49 @@ TEST_F(SweepCommand, ShardsPutTogetherAreTheWhole) {
   EXPECT_TRUE(table("split") == whole());
 }
 
+/// Ranks of OpenMPI, which as root wants to be told that it may.
+class SweepByMpi : public SweepCommand {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists("/usr/bin/mpirun") || !MIXLOOP_HAS_MPI)
+      GTEST_SKIP() << "no mpirun, or built without MPI: packages openmpi-bin, libopenmpi-dev";
+  }
+  std::vector<std::string> ranks(const std::string& folder, const std::vector<std::string>& more) const {
+    std::vector<std::string> words = {"/usr/bin/mpirun", "-n", "2", "--oversubscribe"};
+    words.insert(words.end(), more.begin(), more.end());
+    for (const auto& word : line(folder, {"--patience", "2"})) words.push_back(word);
+    return words;
+  }
+  /// A rank's process, a child of mpirun's.
+  static int process_of(const Command& mpirun, int rank) {
+    const std::string word = "OMPI_COMM_WORLD_RANK=" + std::to_string(rank);
+    for (const int child : mpirun.children())
+      if (bytes_of("/proc/" + std::to_string(child) + "/environ").find(word + '\0') != std::string::npos)
+        return child;
+    return 0;
+  }
+
+  const std::vector<std::string> environment = {"OMPI_ALLOW_RUN_AS_ROOT=1",
+                                                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+};
+
+TEST_F(SweepByMpi, RanksComeToTheSameTable) {
+  Command command(ranks("ranks", {}), environment);
+  EXPECT_EQ(command.wait(), 0) << command.err();
+  EXPECT_TRUE(table("ranks") == whole());
+}
+
+TEST_F(SweepByMpi, ARanksDeathIsToldAndItsRunsAreDone) {
+  Command command(ranks("ranks", {"--enable-recovery"}), environment);
+  ASSERT_TRUE(eventually([&] { return kept("ranks") > 5'000; })) << command.err();
+  const int process = process_of(command, 1);
+  ASSERT_GT(process, 0);
+  kill(process, SIGKILL);
+  EXPECT_EQ(command.wait(), 0) << command.err();
+  EXPECT_THAT(command.err(), HasSubstr("rank 1 (process " + std::to_string(process)));
+  EXPECT_TRUE(table("ranks") == whole());
+}
+
 TEST_F(SweepCommand, TwoInOneFolderAndOtherSettingsThereAreRefused) {
   Command first(line("busy"));
   ASSERT_TRUE(eventually([&] { return kept("busy") > 0; })) << first.err();
