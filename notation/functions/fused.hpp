@@ -24,7 +24,7 @@ namespace mixloop_functions {
 
 /// A number, or a vector of it; of a vector itself.
 template <class Real, class Number>
-MIXLOOP_INLINE Real lift(const Number& x) {
+MIXLOOP_INLINE Real lift(Number x) {
   if constexpr (sizeof(Number) == sizeof(Real))
     return x;
   else
