@@ -19,24 +19,15 @@
 #include "sweep/kernel/loop_data.hpp"
 
 namespace mixloop {
-namespace {
 
 using mixloop_loop::Common, mixloop_loop::Each, mixloop_loop::Told;
 
-bool takes_mass(Law law) { return law == Law::pd_feedforward || law == Law::computed_torque; }
-bool takes_bias(Law law) { return law == Law::pd_gravity || law == Law::computed_torque; }
-
-KernelParts parts_of(const Experiment& experiment) {
-  const Law law = experiment.controller.law;
-  return {experiment.scene, experiment.controller_scene, takes_mass(law), takes_bias(law)};
-}
-
 /// Compiled, for so many runs at once.
-class Kernel {
+class ClosedLoopKernel {
  public:
   using Symbol = std::function<void*(const std::string& name)>;
 
-  Kernel(const Symbol& symbol, int lanes)
+  ClosedLoopKernel(const Symbol& symbol, int lanes)
       : lanes_(lanes), run_(reinterpret_cast<Run>(symbol("closed_loops_" + std::to_string(lanes)))) {
     for (std::size_t i = 0; i < kNames.size(); ++i) {
       set_up_[i] = reinterpret_cast<SetUp>(symbol(std::string(kNames[i]) + "_set_up"));
@@ -64,6 +55,16 @@ class Kernel {
   std::array<std::size_t, 4> constants_{};
 };
 
+namespace {
+
+bool takes_mass(Law law) { return law == Law::pd_feedforward || law == Law::computed_torque; }
+bool takes_bias(Law law) { return law == Law::pd_gravity || law == Law::computed_torque; }
+
+KernelParts parts_of(const Experiment& experiment) {
+  const Law law = experiment.controller.law;
+  return {experiment.scene, experiment.controller_scene, takes_mass(law), takes_bias(law)};
+}
+
 /// Numbers of runs side by side: number i of run r at [i * runs + r].
 class Rows {
  public:
@@ -85,8 +86,8 @@ class Rows {
 class Group {
  public:
   /// `references`: a plan's rows.
-  Group(std::span<const PreparedRun* const> runs, const Kernel& kernel, const std::vector<double>& references,
-        const Telling& telling)
+  Group(std::span<const PreparedRun* const> runs, const ClosedLoopKernel& kernel,
+        const std::vector<double>& references, const Telling& telling)
       : runs_(runs), telling_(telling), plan_(*runs[0]->plan), n_(plan_.n_u()), references_(references) {
     const std::size_t count = runs.size();
     for (auto* rows : {&psi0_, &kp_, &kv_, &torque_limit_, &most_torque_})
@@ -103,7 +104,7 @@ class Group {
   Measures measures(std::size_t run);
 
  private:
-  std::size_t take(std::size_t run, const Kernel& kernel);
+  std::size_t take(std::size_t run, const ClosedLoopKernel& kernel);
   Common common() const;
   Each each();
   Told told();
@@ -134,7 +135,7 @@ std::vector<double> rows_of(const Plan& plan) {
 }
 
 /// How many ticks its command is late.
-std::size_t Group::take(std::size_t run, const Kernel& kernel) {
+std::size_t Group::take(std::size_t run, const ClosedLoopKernel& kernel) {
   const Experiment& experiment = runs_[run]->experiment;
   const PlantModel model = plant_model(experiment.plant, *experiment.scene, experiment.rate_hz);
   psi0_.put(run, plan_.at(0).psi);
@@ -276,14 +277,14 @@ struct LaneEngine::Shelf {
   /// For the processor at hand; nothing where it can't be had.
   struct Compiled {
     SharedObject library;
-    std::optional<Kernel> kernel;
+    std::optional<ClosedLoopKernel> kernel;
   };
 
   std::mutex mutex;
   std::map<std::string, Compiled> kernels;
   std::vector<Planned> planned;
 
-  const Kernel* kernel_of(const KernelParts& parts) {
+  const ClosedLoopKernel* kernel_of(const KernelParts& parts) {
     const std::lock_guard lock(mutex);
     auto [at, is_new] = kernels.try_emplace(parts.key());
     Compiled& compiled = at->second;
@@ -312,7 +313,8 @@ std::vector<Outcome> run_in_library(const std::string& library, std::span<const 
   const std::unique_ptr<void, int (*)(void*)> handle(::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL),
                                                      ::dlclose);
   if (!handle) throw std::runtime_error(::dlerror());
-  const Kernel kernel([&](const std::string& name) { return ::dlsym(handle.get(), name.c_str()); }, 1);
+  const ClosedLoopKernel kernel([&](const std::string& name) { return ::dlsym(handle.get(), name.c_str()); },
+                                1);
   std::vector<const PreparedRun*> group;
   for (const PreparedRun& run : runs) group.push_back(&run);
   Group gone(group, kernel, rows_of(*runs[0].plan), telling);
@@ -333,7 +335,8 @@ std::vector<Outcome> LaneEngine::operator()(std::span<const PreparedRun> runs, c
       for (std::size_t i = at;
            i < runs.size() && hindrance_in_lanes(runs[i]).empty() && are_alike(runs[at], runs[i]); ++i)
         group.push_back(&runs[i]);
-    const Kernel* const kernel = group.empty() ? nullptr : shelf_->kernel_of(parts_of(runs[at].experiment));
+    const ClosedLoopKernel* const kernel =
+        group.empty() ? nullptr : shelf_->kernel_of(parts_of(runs[at].experiment));
     if (!kernel) {
       const std::size_t alone = std::max<std::size_t>(group.size(), 1);
       for (Outcome& outcome : run_one_by_one(runs.subspan(at, alone), telling))
