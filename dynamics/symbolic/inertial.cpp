@@ -81,7 +81,7 @@ class InertialTracer final : public Tracer {
                         E(0.5) * Iw.dot(V3(e.tensor.lazyProduct(Iw)));
       energy.potential -= model().gravity.dot(V3(vector_of(poses_[e.origin].origin) * e.mass + e.moment));
     }
-    energy.potential -= frames_.inertias()[0].moment.dot(model().gravity);
+    energy.potential -= on_ground_.dot(model().gravity);
     energy.potential += frames_.spring_potentials();
     return energy;
   }
@@ -137,6 +137,7 @@ class InertialTracer final : public Tracer {
       add({i + 1, parent, E(0.0), zero3(), mid.tensor, mid_[i]}, mid.moment);
       own[parent].mass += mid.mass;
     }
+    on_ground_ = own[0].moment;
   }
 
   void add(Element element, const V3& moment) {
@@ -252,6 +253,7 @@ class InertialTracer final : public Tracer {
   std::vector<Pose> poses_;  ///< of each frame
   std::vector<Pose> mid_;    ///< of each link, before its constant twist, at the joint
   std::vector<Element> elements_;
+  V3 on_ground_ = zero3();  ///< the first moment of what stands still, masses in joints included
   std::vector<std::vector<Motion>> columns_;  ///< of each independent coordinate
 };
 

@@ -91,7 +91,7 @@ transforms:
   - {from: A, to: B, at: [0.2 m, 0, 0], revolute: rod1}
   - {from: B, to: platform, at: [0.6 m, 0, 0], revolute: turn}
   - {from: 0, to: C, at: [1 m, 0, 0], revolute: rod2}
-  - {from: 0, to: D, at: [0.3 m, 1.1 m, 0], revolute: rod3}
+  - {from: 0, to: D, at: [1.2 m, 1.1 m, 0], revolute: rod3}
 closures:
   - {name: rod 2, coincide: [{frame: C, point: [0.3 m, 0, 0]}, {frame: platform, point: [0.3 m, 0, 0]}], axes: [x, y]}
   - {name: rod 3, coincide: [{frame: platform, point: [0.1 m, 0.25 m, 0]}, {frame: D, point: [0.7 m, 0, 0]}]}
@@ -103,7 +103,7 @@ bodies:
   - {frame: platform, mass: 3 kg, center_of_mass: [0.15, 0.1, 0], inertia: {xx: 0.03, yy: 0.03, zz: 0.05}}
 gravity: [0, -9.81, 0]
 end_effector: {frame: platform, axes: [x]}
-home: {crank: 70 deg, rod1: -60 deg, turn: -10 deg, rod2: 98 deg, rod3: -51 deg}
+home: {crank: 40 deg, rod1: -25 deg, turn: -7 deg, rod2: 86 deg, rod3: -124 deg}
 )yaml";
 
 /// A text with one of its parts, which must occur, as another.

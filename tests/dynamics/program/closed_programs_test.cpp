@@ -70,9 +70,9 @@ const std::string kOnSlide =
               "revolute: rod1}\n  - {from: B, to: platform, at: [0.6 m, 0, 0], revolute: turn}",
               "revolute: gear}\n  - {from: B, to: slide, prismatic: slide, axis: [1, 0, 0]}\n"
               "  - {from: slide, to: platform, revolute: turn}"),
-         "rod1: -60 deg,", "slide: 0.6 m,");
+         "rod1: -25 deg,", "slide: 0.6 m,");
 const std::string kGeared =
-    with(kOnSlide, "closures:", "constraints: {gear: \"-60 deg + 0.3*(turn + 10 deg)\"}\nclosures:");
+    with(kOnSlide, "closures:", "constraints: {gear: \"-25 deg + 0.3*(turn + 7 deg)\"}\nclosures:");
 
 struct Closed {
   const char* name;
