@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "bench/closed_engine.hpp"
+#include "bench/closed_pantograph.hpp"
 #include "bench/machine.hpp"
 #include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/equations.hpp"
@@ -73,11 +74,11 @@ Known known_states(const ScenePtr& scene, double reach = 0) {
   return known;
 }
 
-ClosedEngine ours(const ScenePtr& scene, Evaluation how) {
+ClosedEngine ours(const ScenePtr& scene, Evaluation how, const std::string& by = "") {
   const auto dynamics = std::make_shared<Equations::Workspace>(
       equations_of(scene, how, {Purpose::forward_dynamics}), scene->default_parameters());
   const auto n = static_cast<std::size_t>(scene->n());
-  return {"mixloop, " + std::string(name_of(dynamics->equations().evaluation())), 1e-11,
+  return {"mixloop, " + std::string(name_of(dynamics->equations().evaluation())) + by, 1e-11,
           [dynamics, n](const ClosedState& state, double* psidd) {
             dynamics->evaluate(Purpose::forward_dynamics, {state.psi, state.psid, state.tau}, {psidd, n});
           }};
@@ -187,6 +188,13 @@ int run(int repeats) {
     add_mujoco_delta_robot(peers, known_states(scene, kReach).states.front());
     add_simbody_delta_robot(peers);
     held &= compare("delta robot", scene, std::move(peers), repeats, kReach);
+  }
+  {
+    const Pantographs ways = pantographs();
+    ClosedEngines others{ours(ways.dyad, Evaluation::machine_code, ", linear blocks off: a dyad"),
+                         ours(ways.newton, Evaluation::machine_code, ", closed forms off: Newton")};
+    held &= compare("the paper's robot, its pantograph by a closure: linear", ways.linear, std::move(others),
+                    repeats, 0.25);
   }
   std::printf(
       "Times: the least of all passes. Over machine code: median ratio to a pass of it just before. Errors: "

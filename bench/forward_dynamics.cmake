@@ -75,7 +75,7 @@ if(mujoco_FOUND)
 else()
   list(APPEND MIXLOOP_CLOSED_PEERS closed_no_mujoco.cpp)
 endif()
-add_executable(mixloop-bench-closed closed_dynamics.cpp ${MIXLOOP_CLOSED_PEERS})
+add_executable(mixloop-bench-closed closed_dynamics.cpp closed_pantograph.cpp ${MIXLOOP_CLOSED_PEERS})
 target_compile_definitions(mixloop-bench-closed PRIVATE MIXLOOP_COMMIT="${MIXLOOP_COMMIT}"
                                                         MIXLOOP_SCENES="${PROJECT_SOURCE_DIR}/scenes")
 target_link_libraries(mixloop-bench-closed PRIVATE mixloop::dynamics mixloop_in_wide)

@@ -24,12 +24,12 @@ ClosureFollower::ClosureFollower(std::shared_ptr<const Scene> scene, const Routi
   sizes_.start = static_cast<std::size_t>(scene_->start_size());
   sizes_.blocks = scene_->blocks.size();
   sizes_.corrections = static_cast<std::size_t>(scene_->corrections());
+  sizes_.rates = static_cast<std::size_t>(scene_->started_rates());
   for (const auto& closure : scene_->closures) sizes_.rows += static_cast<std::size_t>(closure.rows());
   for (const auto& block : scene_->blocks)
     for (int j : block.unknowns) sizes_.rows += scene_->turns(j);
   for (const auto& block : scene_->blocks)
-    for (int j : block.unknowns)
-      if (block.by_newton) scales_.push_back(scene_->turns(j) ? 1 : 1 / scene_->size);
+    for (int j : block.corrected()) scales_.push_back(scene_->turns(j) ? 1 : 1 / scene_->size);
   for (const auto& psi : scene_->independent) lengths_.push_back(psi.linear ? 1 / scene_->size : 1);
   anchor_.resize(sizes_.start + sizes_.started * (sizes_.n + 1) + sizes_.n + 1);
   watched_.resize(sizes_.started * (sizes_.n + 1) + sizes_.rows + sizes_.blocks);
@@ -37,7 +37,7 @@ ClosureFollower::ClosureFollower(std::shared_ptr<const Scene> scene, const Routi
   const std::size_t most = std::max<std::size_t>(2 * sizes_.n, watched_.size());
   input_.resize(2 * sizes_.n + sizes_.start);
   output_.resize(std::max(most, 3 * sizes_.n * sizes_.n + 16) + 3 * sizes_.n + sizes_.start +
-                 sizes_.corrections);
+                 sizes_.corrections + sizes_.rates);
 }
 
 void ClosureFollower::stand(std::span<const double> psi, double t, std::span<const double> at) noexcept {
@@ -153,8 +153,9 @@ double ClosureFollower::predict(std::span<const double> psi, double t, std::size
 // With a start in input_ behind what the evaluator takes.
 Status ClosureFollower::solve(Evaluator& evaluator, const Arguments& at, std::size_t takes,
                               std::size_t gives) noexcept {
-  const std::size_t all = gives + (sizes_.corrections > 0 ? sizes_.start + sizes_.corrections : 0);
-  const std::span<double> outputs = std::span(output_).first(all);
+  const std::size_t solution = sizes_.corrections > 0 ? sizes_.start + sizes_.corrections : 0;
+  const std::size_t rates = &evaluator == &closures_ ? 0 : sizes_.rates;
+  const std::span<double> outputs = std::span(output_).first(gives + solution + rates);
   for (int repeat = 0; repeat < kMostRepeats; ++repeat) {
     const Status status = evaluator.evaluate({at.psi, at.psid, input_, at.t}, outputs);
     if (status != Status::ok) return status;
@@ -174,14 +175,17 @@ Status ClosureFollower::step(std::span<const double> psi, double t) noexcept {
   const Status status = solve(closures_, {psi, {}, {}, t}, 0, gives);
   if (status != Status::ok) return Status::not_closed;
   std::copy_n(output_.begin(), gives, watched_.begin());
-  double* to = anchor_.data();
-  const double* solution = output_.data() + gives;
-  // On the branch and the turn of the anchor.
-  to = std::copy_n(solution, sizes_.start, to);
-  to = std::copy_n(output_.data(), sizes_.started * (sizes_.n + 1), to);
-  to = std::copy(psi.begin(), psi.begin() + static_cast<std::ptrdiff_t>(sizes_.n), to);
-  *to = t;
+  move(output_.data() + gives, output_.data(), psi, t);
   return Status::ok;
+}
+
+// On the branch and the turn of the anchor.
+void ClosureFollower::move(const double* solution, const double* rates, std::span<const double> psi,
+                           double t) noexcept {
+  double* to = std::copy_n(solution, sizes_.start, anchor_.data());
+  to = std::copy_n(rates, sizes_.started * (sizes_.n + 1), to);
+  to = std::copy_n(psi.begin(), sizes_.n, to);
+  *to = t;
 }
 
 // In steps, of which each starts from the one before: solutions stay on their branch, and no singular pose is
@@ -225,7 +229,10 @@ Status ClosureFollower::evaluate(Evaluator& evaluator, const Arguments& at, std:
   const Status status = solve(evaluator, at, takes, outputs.size());
   if (status == Status::not_closed) return failed(status);
   std::copy_n(output_.begin(), outputs.size(), outputs.begin());
-  return status == Status::ok ? status : cause_of(status, at);
+  if (status != Status::ok) return cause_of(status, at);
+  const double* solution = output_.data() + outputs.size();
+  if (follows && sizes_.rates > 0) move(solution, solution + sizes_.start + sizes_.corrections, at.psi, at.t);
+  return status;
 }
 
 Status ClosureFollower::cause_of(Status status, const Arguments& at) noexcept {

@@ -71,19 +71,22 @@ class ClosureFollower {
 
   /// A purpose's evaluation that `evaluate` does, of `gives` numbers, its input completed by a start and its
   /// corrections repeated until they are none. Where `follows`, poses that are not near the anchor are
-  /// accepted first.
+  /// accepted first; where blocks are torn, whose programs give what an anchor takes, the pose is the anchor
+  /// from then on.
   Status evaluate(Evaluator& evaluator, const Arguments& at, std::size_t takes, std::span<double> outputs,
                   bool follows) noexcept;
 
  private:
   struct Sizes {
-    std::size_t n, started, start, rows, blocks, corrections;
+    std::size_t n, started, start, rows, blocks, corrections, rates;
   };
 
   Status solve(Evaluator& evaluator, const Arguments& at, std::size_t takes, std::size_t gives) noexcept;
   /// The start for a pose, from the anchor's rates, into input_ from `from` on. How far that went, rad or of
   /// the scene's size.
   double predict(std::span<const double> psi, double t, std::size_t from) noexcept;
+  /// The anchor goes to a pose that has been solved.
+  void move(const double* solution, const double* rates, std::span<const double> psi, double t) noexcept;
   Status step(std::span<const double> psi, double t) noexcept;
   void read(const double* solution, const double* rates, std::span<const double> psid,
             const Motion& motion) const noexcept;

@@ -272,27 +272,46 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 
 Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file,
                            const std::vector<Override>& overrides) {
+  const NodePtr whole = experiment_document(document, file, overrides);
+  return read_experiment(whole, file, load_scenes(whole, file, overrides));
+}
+
+NodePtr experiment_document(const NodePtr& document, const std::filesystem::path& file,
+                            const std::vector<Override>& overrides) {
+  return overridden(on_base(document, file), overrides, false);
+}
+
+ExperimentScenes load_scenes(const NodePtr& document, const std::filesystem::path& file,
+                             const std::vector<Override>& overrides) {
+  const Mapping root = read_mapping(document, experiment_keys());
+  const auto base = file.parent_path();
+  ExperimentScenes scenes{.document = scene_document_at(*root.at("scene"), base, overrides)};
+  scenes.scene = scenes.controller_scene = std::make_shared<const Scene>(load_scene(scenes.document));
+  const NodePtr controller = root.find("controller");
+  if (const NodePtr other = controller ? find_entry(*controller, "scene") : nullptr) {
+    scenes.controller_scene = std::make_shared<const Scene>(load_scene(scene_document_at(*other, base, {})));
+    require_same_motors(*scenes.controller_scene, *scenes.scene, other->place);
+  }
+  return scenes;
+}
+
+Experiment read_experiment(const NodePtr& document, const std::filesystem::path& file,
+                           const ExperimentScenes& scenes) {
   Experiment experiment;
-  experiment.document = overridden(on_base(document, file), overrides, false);
-  const Mapping root = read_mapping(experiment.document, experiment_keys());
+  experiment.document = document;
+  const Mapping root = read_mapping(document, experiment_keys());
   experiment.file = file;
   experiment.name = printable_name(file.stem().string());
-  const auto base = file.parent_path();
-  experiment.scene_document = scene_document_at(*root.at("scene"), base, overrides);
-  experiment.scene = std::make_shared<const Scene>(load_scene(experiment.scene_document));
+  experiment.scene_document = scenes.document;
+  experiment.scene = scenes.scene;
+  experiment.controller_scene = scenes.controller_scene;
   const Scene& scene = *experiment.scene;
   if (const NodePtr rate = root.find("rate")) experiment.rate_hz = read_rate(*rate);
   read_motion(root, experiment);
 
   const NodePtr controller =
       scene.n_u() > 0 || root.has("controller") ? root.at("controller") : nothing_to_control();
-  experiment.controller = read_controller_settings(controller, scene, base);
-  const NodePtr other_scene = find_entry(*controller, "scene");
-  experiment.controller_scene =
-      other_scene ? std::make_shared<const Scene>(load_scene(scene_document_at(*other_scene, base, {})))
-                  : experiment.scene;
-  if (other_scene) require_same_motors(*experiment.controller_scene, scene, other_scene->place);
-
+  experiment.controller = read_controller_settings(controller, scene, file.parent_path());
   const NodePtr plant = root.find("plant");
   if (plant) experiment.plant = read_plant_settings(plant, scene, experiment.rate_hz);
   if (const NodePtr real_time = root.find("real_time"))
@@ -307,9 +326,10 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
         "control: held");
   experiment.parameters = parameter_values(scene, root.find("parameters"), scene.default_parameters());
   experiment.plant_parameters = parameter_values(scene, parameters_in(plant), experiment.parameters);
-  experiment.controller_parameters = parameter_values(
-      *experiment.controller_scene, parameters_in(controller),
-      other_scene ? experiment.controller_scene->default_parameters() : experiment.parameters);
+  experiment.controller_parameters = parameter_values(*experiment.controller_scene, parameters_in(controller),
+                                                      experiment.controller_scene != experiment.scene
+                                                          ? experiment.controller_scene->default_parameters()
+                                                          : experiment.parameters);
   require_inertia(experiment.scene, experiment.plant_parameters);
   read_faults_and_seed(root, experiment);
   if (const NodePtr limits = root.find("limits")) read_limits(limits, experiment);
@@ -329,10 +349,21 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   return read_scene(overridden_scene(read_document(file), overrides, false));
 }
 
+void require_faults_in_time(const Experiment& experiment, const Plan& plan) {
+  require_faults_in_time(experiment, plan.ticks());
+}
+
+std::shared_ptr<const Equations> equations_for(const Experiment& experiment,
+                                               const std::shared_ptr<const Scene>& scene,
+                                               const std::vector<Purpose>& purposes,
+                                               Equations::Options options) {
+  return shelved_equations(experiment.shelf.get(), scene, experiment.evaluation, purposes, options);
+}
+
 Plan make_plan(const Experiment& experiment) {
   if (!experiment.has_path()) {
     Plan plan = plan_without_path(experiment);
-    require_faults_in_time(experiment, plan.ticks());
+    require_faults_in_time(experiment, plan);
     return plan;
   }
   const auto model = make_model<double>(experiment.scene, std::span<const double>(experiment.parameters));
@@ -345,16 +376,15 @@ Plan make_plan(const Experiment& experiment) {
     if (!rows.uniform) settings.within = rows.at;
   }
   Plan plan(model, experiment.path, settings);
-  require_faults_in_time(experiment, plan.ticks());
+  require_faults_in_time(experiment, plan);
   return plan;
 }
 
 Controller make_controller(const Experiment& experiment) {
   const auto& scene = experiment.controller_scene;
-  const auto equations =
-      has_gains(experiment.controller.law)
-          ? equations_of(scene, experiment.evaluation, {Purpose::mass_times, Purpose::bias})
-          : equations_of(scene, experiment.evaluation, {});
+  const auto equations = has_gains(experiment.controller.law)
+                             ? equations_for(experiment, scene, {Purpose::mass_times, Purpose::bias})
+                             : equations_for(experiment, scene, {});
   return Controller({equations, experiment.controller_parameters}, experiment.controller,
                     seen_coordinates(experiment));
 }
@@ -384,8 +414,9 @@ Plant make_plant(const Experiment& experiment, const Plan& plan) {
   if (plan.has_path()) start.head(plan.n_u()) = plan.at(0).psi;
   PlantSettings settings = experiment.plant;
   settings.parameters = experiment.plant_parameters;
-  Equations::Workspace dynamics(plant_equations(experiment.scene, experiment.evaluation, settings),
-                                experiment.plant_parameters);
+  Equations::Workspace dynamics(
+      plant_equations(experiment.scene, experiment.evaluation, settings, experiment.shelf.get()),
+      experiment.plant_parameters);
   return Plant(std::move(dynamics), settings, experiment.rate_hz, span_of(std::as_const(start)),
                settings.initial_psid);
 }

@@ -28,6 +28,8 @@ struct Measures {
   Vector max_torque;                  ///< n_u, N m or N, largest magnitude of each motor's commanded torque
   std::int64_t ticks = 0;             ///< the last tick recorded; N where the run is whole
   std::string trajectory_sha256;      ///< of the doubles t, psi, psi', tau of ticks 0 to `ticks`; or empty
+  /// s: from there on the position error was within what RecorderSettings say, to the last tick.
+  double settled_at = kNeverMeasured;
   std::optional<double> diverged_at;  ///< s
   std::optional<std::string>
       no_way_on;  ///< why it diverged, where closures ended it: which, when, in which pose

@@ -36,9 +36,9 @@ std::size_t Recorder::bytes_a_tick(const Experiment& experiment) {
          (2 * scene.independent.size() + 2 * scene.motors().size() + 1 + loop_numbers(experiment));
 }
 
-Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_work)
+Recorder::Recorder(const Experiment& experiment, const Plan& plan, const RecorderSettings& settings)
     : plan_(plan),
-      kinematics_(equations_of(experiment.scene, experiment.evaluation, {Purpose::end_effector}),
+      kinematics_(equations_for(experiment, experiment.scene, {Purpose::end_effector}),
                   experiment.plant_parameters),
       axes_(experiment.scene->end_effector.axes),
       n_(experiment.scene->independent.size()),
@@ -46,10 +46,12 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_wo
       loops_(loop_numbers(experiment)),
       rate_hz_(experiment.rate_hz),
       limit_(experiment.position_error_limit),
-      rows_(static_cast<std::size_t>(plan.ticks() + 3) * width(), free_memory()),
+      kept_(settings.keeps_ticks ? plan.ticks() + 1 : 0),
+      rows_(static_cast<std::size_t>(kept_ + 2) * width(), settings.keeps_ticks ? free_memory() : HUGE_VAL),
       conditions_{-1, 1},
       zero_(n_, 0.0),
-      hand_(kinematics_.outputs(Purpose::end_effector)) {
+      hand_(kinematics_.outputs(Purpose::end_effector)),
+      settled_within_(settings.settled_within) {
   const auto& end_effector = experiment.scene->end_effector;
   measures_.follows_path = plan.has_path() && end_effector.named;
   measures_.is_oriented = measures_.follows_path && end_effector.is_oriented();
@@ -64,12 +66,12 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_wo
   const bool tells_energy = !plan.has_path() || experiment.expect.bounds_on("energy_drift");
   if (tells_energy && other_work_in(experiment).empty()) {
     measures_.energy_drift = kNeverMeasured;
-    if (knows_work && loops_ > 0)
+    if (settings.knows_work && loops_ > 0)
       switched_energy_.emplace(experiment.plant.partitions, told_by(experiment),
                                std::initializer_list<Purpose>{Purpose::energy}, Equations::Options{},
                                experiment.plant_parameters);
-    else if (knows_work)
-      energy_.emplace(equations_of(experiment.scene, experiment.evaluation, {Purpose::energy}),
+    else if (settings.knows_work)
+      energy_.emplace(equations_for(experiment, experiment.scene, {Purpose::energy}),
                       experiment.plant_parameters);
     if (switched_energy_) hand_loops_ = switched_energy_->motion();
   }
@@ -189,6 +191,10 @@ void Recorder::measure_path(std::int64_t k) {
     measures_.time_of_max_position_error = time(k);
   }
   measures_.final_position_error = error_;
+  if (settled_within_ && !(error_ <= *settled_within_))
+    measures_.settled_at = kNeverMeasured;
+  else if (settled_within_ && !(measures_.settled_at <= time(k)))
+    measures_.settled_at = time(k);
   sum_of_squares_ += error_ * error_;
   ++errors_;
 }
@@ -236,6 +242,7 @@ Measures Recorder::measures() const {
   result.ticks = std::max<std::int64_t>(recorded_ - 1, 0);
   result.final_psi = final_psi();
   if (errors_ > 0) result.rms_position_error = std::sqrt(sum_of_squares_ / static_cast<double>(errors_));
+  if (recorded_ > kept_) return result;
   Sha256 hash;
   for (std::int64_t k = 0; k < recorded_; ++k) {
     const double t = time(k);

@@ -20,11 +20,17 @@ inline Evaluation told_by(const Experiment& experiment) {
   return std::min(experiment.evaluation, Evaluation::interpreter);
 }
 
+/// What a recorder does beside judging a run.
+struct RecorderSettings {
+  bool knows_work = true;                     ///< the motors' work is told; else there is no energy drift
+  bool keeps_ticks = true;                    ///< else the last two alone, and there is no trajectory_sha256
+  std::optional<double> settled_within = {};  ///< m: it tells from when on the position error is so small
+};
+
 /// Keeps a run, tick by tick, and judges it. Nothing allocates after construction.
 class Recorder {
  public:
-  /// `knows_work`: the motors' work is told; else there is no energy drift.
-  Recorder(const Experiment& experiment, const Plan& plan, bool knows_work = true);
+  Recorder(const Experiment& experiment, const Plan& plan, const RecorderSettings& settings = {});
 
   /// What the record takes, all its ticks alike.
   static std::size_t bytes_a_tick(const Experiment& experiment);
@@ -76,7 +82,7 @@ class Recorder {
 
  private:
   const double* row(std::int64_t k) const {
-    const std::int64_t slot = k <= plan_.ticks() ? k : plan_.ticks() + 1 + k % 2;
+    const std::int64_t slot = k < kept_ ? k : kept_ + k % 2;
     return rows_.data() + static_cast<std::size_t>(slot) * width();
   }
   double* row(std::int64_t k) { return const_cast<double*>(std::as_const(*this).row(k)); }
@@ -95,7 +101,8 @@ class Recorder {
   std::size_t n_, n_u_;
   std::size_t loops_;  ///< numbers of a LoopMotion; 0 where no coordinates are switched
   double rate_hz_, limit_;
-  RecordRows rows_;  ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work, loops
+  std::int64_t kept_;  ///< ticks; of those past them the last two
+  RecordRows rows_;    ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work, loops
   /// Changes kept of injected faults; past them the latest one stands for those before it.
   static constexpr std::size_t kInjectedKept = 1000;
   std::size_t row_of_conditions_ = 0;
@@ -112,6 +119,7 @@ class Recorder {
   bool tells_final_ = false;
   std::int64_t recorded_ = 0;
   std::int64_t safe_from_ = std::numeric_limits<std::int64_t>::max();
+  std::optional<double> settled_within_;
   double error_ = 0, sum_of_squares_ = 0;
   std::int64_t errors_ = 0;
   Measures measures_;

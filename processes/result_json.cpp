@@ -215,6 +215,21 @@ void fields(const Way& f, B& bus) {
   f("joined_late", bus.joined_late);
 }
 
+template <class Way, IsA<SweepFigures::Figure> F>
+void fields(const Way& f, F& figure) {
+  f("name", figure.name);
+  f("unit", figure.unit);
+  f("value", figure.value);
+}
+
+template <class Way, IsA<SweepFigures> S>
+void fields(const Way& f, S& sweep) {
+  f("runs", sweep.runs);
+  f("done", sweep.done);
+  f("wall_time", sweep.wall_time);
+  f("figures", sweep.figures);
+}
+
 template <class Way, IsA<Result::Log> L>
 void fields(const Way& f, L& log) {
   f("file", log.file);
@@ -257,6 +272,12 @@ nlohmann::json json_of(const Result& result) {
   const Keys f(out);
   if (result.run) {
     fields(f, result);
+  } else if (result.sweep) {
+    f("experiment", result.experiment);
+    f("verdict", result.judged.verdict);
+    f("missed", result.judged.missed);
+    f("exit_status", result.judged.exit_status);
+    f("sweep", result.sweep);
   } else if (result.error) {
     f("experiment", result.experiment);
     f("error", result.error);

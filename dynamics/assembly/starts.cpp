@@ -36,15 +36,20 @@ void find_starts(Scene& scene) {
   {
     Graph graph;
     const Recording recording(graph);
-    const ClosedCoordinates closed(all);
-    for (std::size_t b = 0; b < scene.blocks.size(); ++b)
+    ClosedCoordinates closed(all);
+    for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
       scene.blocks[b].by_newton = closed.solutions()[b] == BlockSolution::newton;
+      if (scene.blocks[b].by_newton && !scene.from_starts)
+        scene.blocks[b].cut = closed.cut(static_cast<int>(b));
+    }
   }
+  all->blocks = scene.blocks;
   const std::set<NodeId> counting = starts_that_count(all);
   NodeId index = 0;
   for (const auto& block : scene.blocks)
     for (int j : block.unknowns) {
-      bool needed = block.by_newton;
+      const auto corrected = block.corrected();
+      bool needed = std::find(corrected.begin(), corrected.end(), j) != corrected.end();
       for (int k = scene.turns(j) ? 3 : 1; k > 0; --k) needed = counting.contains(index++) || needed;
       if (needed) scene.started.push_back(j);
     }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "dynamics/procedure/matrix.hpp"
 
 namespace mixloop {
@@ -14,9 +17,17 @@ class SmallSystem {
  public:
   static constexpr Eigen::Index kMostByCofactors = 4;
 
+  /// An unknown that stands in two rows and in no other, and the sum of the squares of its two coefficients.
+  struct Alone {
+    Eigen::Index first, second, unknown;
+    T squared;
+  };
+
   SmallSystem() = default;
-  explicit SmallSystem(const Mat<T>& A) {
-    if (A.rows() <= kMostByCofactors)
+  explicit SmallSystem(const Mat<T>& A, std::span<const Alone> alone = {}) {
+    if (!alone.empty())
+      invert_beside(A, alone);
+    else if (A.rows() <= kMostByCofactors)
       invert(A);
     else
       orthogonalise(A);
@@ -66,6 +77,49 @@ class SmallSystem {
     T determinant(0);
     for (Eigen::Index j = 0; j < k; ++j) determinant += A(0, j) * cofactors(j, 0);
     inverse_ = cofactors * T(T(1) / determinant);
+  }
+
+  // Rows a x + A_1 y = b_1, b x + A_2 y = b_2 of an unknown x that stands in no other: turned, b A_1 - a A_2
+  // is a row of the others', y, alone; and x = (a (b_1 - A_1 y) + b (b_2 - A_2 y)) / (a^2 + b^2).
+  void invert_beside(const Mat<T>& A, std::span<const Alone> alone) {
+    const Eigen::Index k = A.rows(), others = k - static_cast<Eigen::Index>(alone.size());
+    std::vector<bool> row_taken(static_cast<std::size_t>(k)), taken = row_taken;
+    Mat<T> turned = Mat<T>::Constant(others, k, T(0));  // what gives the others' rows
+    Eigen::Index at = 0;
+    for (const Alone& x : alone) {
+      turned(at, x.first) = A(x.second, x.unknown);
+      turned(at++, x.second) = -A(x.first, x.unknown);
+      for (auto row : {x.first, x.second}) row_taken[static_cast<std::size_t>(row)] = true;
+      taken[static_cast<std::size_t>(x.unknown)] = true;
+    }
+    for (Eigen::Index i = 0; i < k; ++i)
+      if (!row_taken[static_cast<std::size_t>(i)]) turned(at++, i) = T(1);
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index j = 0; j < k; ++j)
+      if (!taken[static_cast<std::size_t>(j)]) kept.push_back(j);
+    Mat<T> rest(others, others);
+    for (Eigen::Index i = 0; i < others; ++i)
+      for (Eigen::Index j = 0; j < others; ++j) {
+        T sum(0);
+        for (Eigen::Index r = 0; r < k; ++r) sum += turned(i, r) * A(r, kept[static_cast<std::size_t>(j)]);
+        rest(i, j) = sum;
+      }
+    invert(rest);
+    const Mat<T> of_others = inverse_.lazyProduct(turned);
+    inverse_ = Mat<T>(k, k);
+    for (Eigen::Index j = 0; j < others; ++j)
+      inverse_.row(kept[static_cast<std::size_t>(j)]) = of_others.row(j);
+    for (const Alone& x : alone) {
+      const T scale = T(1) / x.squared, a = A(x.first, x.unknown) * scale, b = A(x.second, x.unknown) * scale;
+      for (Eigen::Index c = 0; c < k; ++c) {
+        T sum = c == x.first ? a : c == x.second ? b : T(0);
+        for (Eigen::Index j = 0; j < others; ++j) {
+          const Eigen::Index y = kept[static_cast<std::size_t>(j)];
+          sum -= (a * A(x.first, y) + b * A(x.second, y)) * of_others(j, c);
+        }
+        inverse_(x.unknown, c) = sum;
+      }
+    }
   }
 
   void orthogonalise(const Mat<T>& A) {

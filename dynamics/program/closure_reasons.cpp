@@ -26,7 +26,7 @@ std::string closures_of(const Scene& scene, const std::vector<Scene::ClosureRow>
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string words_for(BlockSolution how) {
+std::string words_for(const Scene& scene, const Scene::Block& block, BlockSolution how) {
   switch (how) {
     case BlockSolution::single:
       return "in closed form, one coordinate by one row";
@@ -34,6 +34,11 @@ std::string words_for(BlockSolution how) {
       return "in closed form, as two links between two known points";
     case BlockSolution::distances:
       return "in closed form, as a point at three distances";
+    case BlockSolution::torn:
+      return fmt::format(
+          "torn: {} cut out, by {} corrections of Newton's method from the last accepted pose, the "
+          "others in closed form, as links that turn alone",
+          names_of(scene, block.cut), ClosedChains::kCorrectionsOfCut);
     case BlockSolution::newton:
       break;
   }
@@ -73,8 +78,8 @@ std::vector<std::string> closure_reasons(const std::shared_ptr<const Scene>& sce
     }
     const OperationCount count = make_program(graph, nodes).run_operations();
     say.push_back(fmt::format("{} of {} are solved {}: {} operations.", names_of(*scene, block.unknowns),
-                              closures_of(*scene, block.rows), words_for(closed.solutions()[b]),
-                              count.flops() - before));
+                              closures_of(*scene, block.rows),
+                              words_for(*scene, block, closed.solutions()[b]), count.flops() - before));
     before = count.flops();
   }
   return say;

@@ -30,11 +30,15 @@ void add_closures(const std::shared_ptr<const Scene>& scene, Trigonometry trigon
   head += fmt::format(
       "// Where chains close, `input` goes on with a start ({} numbers: of each solved coordinate its value "
       "and, of "
-      "an angle, cosine and sine) and `out` with the solution ({}) and the last corrections ({}, rad or m).\n"
+      "an angle, cosine and sine) and `out` with the solution ({}) and the last corrections ({}, rad or "
+      "m){}.\n"
       "// mixloop_solve(psi, t, k, start): k of mixloop_closures; start: that of a pose nearby, solved in "
       "place. "
       "0, or 1 where there is no solution nearby.\n//\n",
-      start, start, corrections);
+      start, start, corrections,
+      scene->started_rates() > 0
+          ? fmt::format(", and their derivatives by psi and t ({})", scene->started_rates())
+          : "");
   body += fmt::format(
       R"(
 extern "C" int mixloop_solve(const double* psi, double t, const double* k, double* start) {{

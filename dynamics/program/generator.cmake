@@ -17,6 +17,7 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/harmonic_functions.cpp
     symbolic/harmonic_sum.cpp
     symbolic/inertial.cpp
+    symbolic/iterate.cpp
     symbolic/link_frames.cpp
     symbolic/literal.cpp
     symbolic/newton_block.cpp
@@ -26,6 +27,7 @@ set(MIXLOOP_GENERATOR_SOURCES
     symbolic/recursive.cpp
     symbolic/single_unknown.cpp
     symbolic/three_distances.cpp
+    symbolic/torn_block.cpp
     symbolic/tracer.cpp
     program/affine_angles.cpp
     program/short_chains.cpp

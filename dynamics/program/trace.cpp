@@ -190,20 +190,26 @@ TracedProgram trace(const std::shared_ptr<const Scene>& scene, Purpose purpose) 
 namespace mixloop {
 namespace {
 
-// |G| |G^-1| / k of a block's scaled slopes.
-Expression condition_of(const Scene& scene, const Scene::Block& block, const ExpressionMatrix& slopes) {
+// |G| |G^-1| / k of a block's slopes, scaled: of a torn one by the inverse that it has been solved with.
+Expression condition_of(const Scene& scene, const Scene::Block& block, const ExpressionMatrix& slopes,
+                        const SmallSystem<Expression>& unscaled) {
   const auto k = slopes.rows();
   ExpressionMatrix scaled = slopes;
+  ExpressionVector of_row = ExpressionVector::Constant(k, Expression(1.0)), of_unknown = of_row;
   for (Eigen::Index i = 0; i < k; ++i) {
-    if (scene.is_length(block.rows[static_cast<std::size_t>(i)])) scaled.row(i) *= Expression(1 / scene.size);
-    if (!scene.turns(block.unknowns[static_cast<std::size_t>(i)])) scaled.col(i) *= Expression(scene.size);
+    if (scene.is_length(block.rows[static_cast<std::size_t>(i)])) of_row[i] = Expression(1 / scene.size);
+    if (!scene.turns(block.unknowns[static_cast<std::size_t>(i)])) of_unknown[i] = Expression(scene.size);
+    scaled.row(i) *= of_row[i];
+    scaled.col(i) *= of_unknown[i];
   }
-  const SmallSystem<Expression> system(scaled);
+  const bool is_torn = !block.cut.empty();
+  const SmallSystem<Expression> system = is_torn ? unscaled : SmallSystem<Expression>(scaled);
   Expression all = 0.0, inverse = 0.0;
   for (Eigen::Index j = 0; j < k; ++j) {
     ExpressionVector unit = ExpressionVector::Constant(k, Expression(0.0));
-    unit[j] = 1.0;
-    const ExpressionVector column = system.solve(unit);
+    unit[j] = is_torn ? Expression(1.0) / of_row[j] : Expression(1.0);
+    ExpressionVector column = system.solve(unit);
+    if (is_torn) column = column.cwiseQuotient(of_unknown);
     inverse += column.dot(column);
     all += scaled.col(j).dot(scaled.col(j));
   }
@@ -223,8 +229,9 @@ Program trace_closures(const std::shared_ptr<const Scene>& scene) try {
   }
   for (const Expression& row : closed.rows()) numbers.push_back(row);
   for (const Expression& pair : closed.stretches()) numbers.push_back(pair);
-  for (const auto& block : scene->blocks)
-    numbers.push_back(condition_of(*scene, block, closed.slopes(block)));
+  for (std::size_t b = 0; b < scene->blocks.size(); ++b)
+    numbers.push_back(
+        condition_of(*scene, scene->blocks[b], closed.slopes(scene->blocks[b]), closed.system(b)));
   for (const Expression& number : closed.solution()) numbers.push_back(number);
   for (const Expression& number : closed.corrections()) numbers.push_back(number);
   Nodes outputs;

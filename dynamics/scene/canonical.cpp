@@ -32,6 +32,7 @@ void add_closures(std::string& text, const Scene& scene) {
     text += fmt::format("{:a} {} ", coordinate.home, coordinate.constraint.dimension.same_powers(kLength));
   for (const auto& block : scene.blocks) {
     text += fmt::format("\nblock {} {}", fmt::join(block.unknowns, " "), block.by_newton);
+    if (!block.cut.empty()) text += fmt::format(" cut {}", fmt::join(block.cut, " "));
     for (const auto& row : block.rows) text += fmt::format(" {}.{}", row.closure, row.row);
   }
   text += fmt::format("\nstarted {}\n", fmt::join(scene.started, " "));

@@ -42,9 +42,13 @@ int Scene::start_size() const {
 
 int Scene::corrections() const {
   std::size_t number = 0;
-  for (const auto& block : blocks)
-    if (block.by_newton) number += block.unknowns.size();
+  for (const auto& block : blocks) number += block.corrected().size();
   return static_cast<int>(number);
+}
+
+int Scene::started_rates() const {
+  const bool torn = std::ranges::any_of(blocks, [](const Block& block) { return !block.cut.empty(); });
+  return torn ? static_cast<int>(started.size()) * (n() + 1) : 0;
 }
 
 std::vector<double> Scene::default_parameters() const {

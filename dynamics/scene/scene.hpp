@@ -63,6 +63,13 @@ struct Scene {
     std::vector<ClosureRow> rows;
     std::vector<int> within;  ///< coordinates with a formula of these that the rows need, in order
     bool by_newton = true;    ///< solved by corrections from a start, else in closed form
+    std::vector<int> cut;     ///< the unknowns that are corrected, where the others follow; none: all are
+
+    /// What is corrected from a start.
+    std::span<const int> corrected() const {
+      if (!by_newton) return {};
+      return cut.empty() ? unknowns : cut;
+    }
   };
 
   /// How the dependent coordinates follow one after the other: by a formula, or a block of them.
@@ -205,6 +212,9 @@ struct Scene {
   int start_size() const;
   /// How many coordinates are solved by corrections from a start.
   int corrections() const;
+  /// Of a scene with a torn block, how many numbers say how the started coordinates move: of each its
+  /// derivatives by psi and t.
+  int started_rates() const;
   bool turns(int coordinate) const;             ///< whether it is an angle
   bool is_length(const ClosureRow& row) const;  ///< or an angle
   /// Whether anything but inertia, gravity and the motors acts.

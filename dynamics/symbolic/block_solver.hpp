@@ -17,6 +17,7 @@ struct SolvedBlock {
   std::vector<ClosedChains::Angle> angles;
   std::vector<ClosedChains::Length> lengths;
   std::vector<Expression> corrections;
+  std::vector<SmallSystem<Expression>::Alone> links;  ///< of a torn one
 };
 
 /// An expression's value at home, at t = 0, with the parameters' defaults.
@@ -54,6 +55,14 @@ std::optional<SolvedBlock> solve_three_distances(const Model<Expression>& model,
 
 /// Any block, by corrections from its start.
 SolvedBlock solve_by_newton(const Model<Expression>& model, int block, AlongOnGraph& along);
+
+/// A block that is torn: corrections of the coordinates that are cut, the others in closed form.
+SolvedBlock solve_torn(const Model<Expression>& model, int block, AlongOnGraph& along);
+
+/// Which coordinates of a block are to be cut, so that each other one turns a link alone, with the slopes of
+/// its rows by its unknowns; none where no link turns alone.
+std::vector<int> cut_of(const Model<Expression>& model, int block, const ExpressionMatrix& slopes,
+                        AlongOnGraph& along);
 
 /// An angle as it is known by its cosine and sine, near `about`; held, with its pair.
 ClosedChains::Angle held_angle(const WholeSum& of, const Planar& direction, const Expression& about,

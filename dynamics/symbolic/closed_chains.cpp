@@ -26,6 +26,10 @@ SolvedBlock ClosedChains::solve_block(const Model<E>& model, int block, AlongOnG
     how_.push_back(BlockSolution::distances);
     return std::move(*distances);
   }
+  if (!model.scene->blocks[static_cast<std::size_t>(block)].cut.empty()) {
+    how_.push_back(BlockSolution::torn);
+    return solve_torn(model, block, along);
+  }
   how_.push_back(BlockSolution::newton);
   return solve_by_newton(model, block, along);
 }
@@ -47,7 +51,7 @@ void ClosedChains::solve(const Model<E>& model, Workspace<E>& ws) {
     ExpressionMatrix slopes;
     ExpressionVector values;
     along.linearise(block, slopes, values);
-    ws.systems[static_cast<std::size_t>(step.block)] = SmallSystem<E>(slopes);
+    ws.systems[static_cast<std::size_t>(step.block)] = SmallSystem<E>(slopes, solved.links);
     along.settle(block);
   }
 }
@@ -64,10 +68,17 @@ std::vector<E> ClosedChains::solution(const Scene& scene, const Workspace<E>& ws
   return numbers;
 }
 
-std::vector<E> ClosedChains::solved_from_start(const Scene& scene, const Workspace<E>& ws) const {
+std::vector<E> ClosedChains::solved_from_start(const Model<E>& model, Workspace<E> ws) const {
   if (corrections_.empty()) return {};
-  std::vector<E> solved = solution(scene, ws);
+  std::vector<E> solved = solution(*model.scene, ws);
   solved.insert(solved.end(), corrections_.begin(), corrections_.end());
+  if (model.scene->started_rates() == 0) return solved;
+  AlongOnGraph along(model, span_of(in_.psi), nullptr, in_.t, E(1.0), ws);
+  along.work_out(false);
+  for (int j : model.scene->started) {
+    for (int i = 0; i < model.n(); ++i) solved.push_back(ws.C(j, i));
+    solved.push_back(along.along(j).d);
+  }
   return solved;
 }
 
@@ -168,6 +179,11 @@ std::vector<E> ClosedCoordinates::rows() {
   std::vector<E> values;
   for (const auto& row : along.rows_of(all)) values.push_back(row.v);
   return values;
+}
+
+std::vector<int> ClosedCoordinates::cut(int block) {
+  AlongOnGraph along(model_, span_of(in_.psi), nullptr, in_.t, E(0.0), ws_);
+  return cut_of(model_, block, slopes(model_.scene->blocks[static_cast<std::size_t>(block)]), along);
 }
 
 ExpressionMatrix ClosedCoordinates::slopes(const Scene::Block& block) {

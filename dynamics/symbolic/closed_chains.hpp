@@ -18,10 +18,11 @@ enum class BlockSolution : std::uint8_t {
   single,     ///< one coordinate by one row: by a square root at most
   dyad,       ///< two links between known points or lines: by a square root
   distances,  ///< a point at three distances: by a square root
+  torn,       ///< corrections of what is cut from a start, the rest in closed form
   newton,     ///< corrections from a start
 };
 constexpr std::string_view name_of(BlockSolution how) {
-  constexpr std::string_view kNames[] = {"closed form", "dyad", "three distances", "Newton"};
+  constexpr std::string_view kNames[] = {"closed form", "dyad", "three distances", "torn", "Newton"};
   return kNames[static_cast<std::size_t>(how)];
 }
 
@@ -30,7 +31,8 @@ constexpr std::string_view name_of(BlockSolution how) {
 /// solved angle is taken.
 class ClosedChains {
  public:
-  static constexpr int kCorrections = 2;  ///< by Newton's method, in one evaluation
+  static constexpr int kCorrections = 2;       ///< by Newton's method, in one evaluation
+  static constexpr int kCorrectionsOfCut = 3;  ///< the same where a block is torn
 
   explicit ClosedChains(TracedInputs in) : in_(std::move(in)) {}
 
@@ -40,7 +42,7 @@ class ClosedChains {
   /// As Tracer::cuts, from the coordinates' C.
   std::vector<Cut> cuts(const Workspace<Expression>& ws) const;
   /// As Tracer::solved_from_start; nothing where no block is solved so.
-  std::vector<Expression> solved_from_start(const Scene& scene, const Workspace<Expression>& ws) const;
+  std::vector<Expression> solved_from_start(const Model<Expression>& model, Workspace<Expression> ws) const;
   /// The solution as start_size() numbers: a start for what comes next.
   std::vector<Expression> solution(const Scene& scene, const Workspace<Expression>& ws) const;
   const std::vector<Expression>& corrections() const { return corrections_; }
@@ -85,9 +87,13 @@ class ClosedCoordinates {
   std::vector<Expression> stretches() const { return chains_.stretches(); }
   /// Of a block's rows by its unknowns.
   ExpressionMatrix slopes(const Scene::Block& block);
+  /// What a block is solved with there.
+  const SmallSystem<Expression>& system(std::size_t block) const { return ws_.systems[block]; }
   std::vector<Expression> solution() const { return chains_.solution(*model_.scene, ws_); }
   const std::vector<Expression>& corrections() const { return chains_.corrections(); }
   const std::vector<BlockSolution>& solutions() const { return chains_.solutions(); }
+  /// As cut_of.
+  std::vector<int> cut(int block);
 
  private:
   TracedInputs in_;

@@ -89,7 +89,7 @@ class InertialTracer final : public Tracer {
   ExpressionVector slopes(int coordinate) override { return at().C.row(coordinate).transpose(); }
   std::vector<Cut> cuts() const override { return frames_.chains().cuts(at()); }
   std::vector<E> solved_from_start() const override {
-    return frames_.chains().solved_from_start(*model().scene, at());
+    return frames_.chains().solved_from_start(model(), at());
   }
 
  private:

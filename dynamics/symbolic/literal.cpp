@@ -32,7 +32,7 @@ class LiteralTracer final : public Tracer {
   }
   std::vector<Cut> cuts() const override { return chains_.cuts(workspace_); }
   std::vector<Expression> solved_from_start() const override {
-    return chains_.solved_from_start(*model_.scene, workspace_);
+    return chains_.solved_from_start(model_, workspace_);
   }
   EndEffectorState<Expression> end_effector(const ExpressionVector& psidd) {
     return mixloop::end_effector<Expression>(model_, span_of(in_.psi), span_of(in_.psid), span_of(psidd),

@@ -51,7 +51,8 @@ class Tracer {
   /// Of what has been written down so far: what closures are solved for.
   virtual std::vector<Cut> cuts() const { return {}; }
   /// Where closures are solved by Newton's method: the solution, a start for what comes next (start_size()),
-  /// and the last corrections (rad or m).
+  /// and the last corrections (rad or m); where a block is torn, the started coordinates' derivatives by psi
+  /// and t, too (started_rates()).
   virtual std::vector<Expression> solved_from_start() const { return {}; }
 };
 

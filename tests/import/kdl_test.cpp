@@ -191,5 +191,33 @@ TEST(ByKinematicsAndDynamicsLibrary, TheShippedUr5IsUniversalRobots) {
                    ByKdl(robot_file("ur5"), made), 3);
 }
 
+// By Denavit and Hartenberg's table, without the URDF's friction, and with a torch behind the flange.
+TEST(ByKinematicsAndDynamicsLibrary, TheShippedPuma560IsAsMeasured) {
+  const Imported made = imported_robot("puma_560");
+  ByKdl kdl(robot_file("puma_560"), made);
+  const auto scene =
+      std::make_shared<const Scene>(load_scene(std::filesystem::path(MIXLOOP_SCENES "/puma_560.yaml")));
+  const auto model = make_model<double>(scene, scene->default_parameters());
+  Workspace<double> ws(model);
+  const Eigen::VectorXd damping =
+      Eigen::Map<const Eigen::VectorXd>(std::array<double, 6>{5.8, 9.5, 3.98, 0.412, 0.427, 0.216}.data(), 6)
+          .eval();
+  for (int pose = 0; pose < 5; ++pose) {
+    std::vector<double> psi(6), psid(6);
+    for (std::size_t i = 0; i < 6; ++i) {
+      psi[i] = 2 * std::sin(1.0 + 3.1 * pose + 1.7 * static_cast<double>(i));
+      psid[i] = std::cos(2.0 + 2.3 * pose + 0.9 * static_cast<double>(i));
+    }
+    const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(psi.data(), 6),
+                          rate = Eigen::Map<const Eigen::VectorXd>(psid.data(), 6);
+    const Eigen::MatrixXd M = kdl.mass_matrix(at);
+    EXPECT_LE(size_of(mass_matrix<double>(model, psi, 0.0, ws) - M), 1e-12 * size_of(M)) << pose;
+    const Eigen::VectorXd h = kdl.bias(at, rate) - damping.cwiseProduct(rate);
+    EXPECT_LE(size_of(bias<double>(model, psi, psid, 0.0, ws) - h), 1e-12 * size_of(h)) << pose;
+    const auto& frame = ws.frames[static_cast<std::size_t>(scene->end_effector.frame)].T_0;
+    EXPECT_LE((frame.col(3) - kdl.tip(at)).norm(), 1e-12) << pose;
+  }
+}
+
 }  // namespace
 }  // namespace mixloop

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Random mechanisms whose chains close, against Lagrange multipliers on the tree that they are cut open to:
-// the programs, and the procedure in 113 bits.
+// Random mechanisms whose chains close, against Lagrange multipliers on the tree that they are cut open to,
+// and random trees that move freely, against multipliers on their joints: the programs, and the procedure in
+// 113 bits.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <mutex>
+#include <random>
+#include <thread>
 
 #include "dynamics/equations.hpp"
 #include "tests/oracles/closed_mechanism.hpp"
 #include "tests/oracles/in_wide.hpp"
+#include "tests/oracles/random_mechanism.hpp"
 #include "tests/stress/figure.hpp"
 #include "tests/stress/scenes.hpp"
 #include "tests/support/free_ones.hpp"
@@ -17,6 +23,7 @@ namespace mixloop::stress {
 namespace {
 
 using oracle::ClosedMechanism;
+using State = ClosedMechanism::State;
 using WideVector = oracle::VectorX<Wide>;
 using WideMatrix = oracle::MatrixX<Wide>;
 
@@ -32,12 +39,37 @@ struct Expected {
   WideVector h, psidd;
 };
 
+// Central differences: h^2 = 1e-22 of the third derivative, noise 1e-33 / h = 1e-22.
+template <class Psidd>
+WideMatrix differences(const Psidd& psidd, const WideVector& psi, const WideVector& psid,
+                       const WideVector& tau, int n_u) {
+  const Wide step(1e-11);
+  const auto n = psi.size();
+  WideMatrix slopes(n, 2 * n + n_u);
+  for (Eigen::Index k = 0; k < slopes.cols(); ++k) {
+    const auto at = [&](const Wide& by) {
+      WideVector moved[] = {psi, psid, tau};
+      moved[k / n][k % n] += by;
+      return psidd(moved[0], moved[1], moved[2]);
+    };
+    slopes.col(k) = (at(step) - at(-step)) / (2 * step);
+  }
+  return slopes;
+}
+
+/// Nothing acts on what moves freely.
+WideVector torques(const State& state, const Scene& scene) {
+  WideVector tau = widened(state.input).head(scene.n());
+  tau.tail(scene.n() - scene.n_u()).setZero();
+  return tau;
+}
+
 /// By a mechanism's own tree; `home` is the pose that was put together, in all digits that a double has.
 class Multipliers {
  public:
   Multipliers(const ClosedMechanism& mechanism, const Scene& scene)
       : mechanism_(mechanism),
-        n_u_(scene.n_u()),
+        scene_(scene),
         home_psi_(widened(mechanism.home_psi())),
         home_(mechanism.pose()) {
     for (int j = 0; j < mechanism.m(); ++j)
@@ -54,8 +86,7 @@ class Multipliers {
   bool look(Expected& expected) {
     const auto& state = mechanism_.state();
     const WideVector psi = widened(state.psi), psid = widened(state.psid);
-    WideVector tau = widened(state.input);
-    tau.tail(psi.size() - n_u_).setZero();  // nothing acts on what moves freely
+    const WideVector tau = torques(state, scene_);
     const Wide t(state.t);
     q_ = home_;
     if (!mechanism_.follow<Wide>(q_, home_psi_, psi, t)) return false;
@@ -65,17 +96,9 @@ class Multipliers {
     expected.M = constraints.C.transpose() * oracle::tree_mass_matrix(tree, q_) * constraints.C;
     expected.h = oracle::multiplier_inverse_dynamics<Wide>(tree, constraints, WideVector::Zero(n));
     expected.psidd = psidd(psi, psid, tau, t);
-    // Central differences: h^2 = 1e-22 of the third derivative, noise 1e-33 / h = 1e-22.
-    const Wide step(1e-11);
-    expected.slopes.resize(n, 2 * n + n_u_);
-    for (int k = 0; k < expected.slopes.cols(); ++k) {
-      const auto at = [&](const Wide& by) {
-        WideVector moved[] = {psi, psid, tau};
-        moved[k / n][k % n] += by;
-        return psidd(moved[0], moved[1], moved[2], t);
-      };
-      expected.slopes.col(k) = (at(step) - at(-step)) / (2 * step);
-    }
+    expected.slopes = differences(
+        [&](const auto& at, const auto& rates, const auto& forces) { return psidd(at, rates, forces, t); },
+        psi, psid, tau, scene_.n_u());
     return true;
   }
 
@@ -87,10 +110,27 @@ class Multipliers {
   }
 
   const ClosedMechanism& mechanism_;
-  int n_u_;
+  const Scene& scene_;
   WideVector home_psi_, home_, q_;
   bool is_closed_ = false;
 };
+
+/// What multipliers on its joints say of a random tree.
+Expected expected_of(const oracle::RandomMechanism& mechanism, const State& state, const Scene& scene) {
+  const WideVector psi = widened(state.psi), psid = widened(state.psid), tau = torques(state, scene);
+  const Wide t(state.t);
+  const auto tree = mechanism.tree<Wide>(t);
+  const auto constraints = mechanism.constraints<Wide>(psi, psid, t);
+  const auto psidd = [&](const WideVector& at, const WideVector& rates, const WideVector& forces) {
+    return WideVector(
+        oracle::multiplier_forward_dynamics<Wide>(tree, mechanism.constraints<Wide>(at, rates, t), forces)
+            .psidd);
+  };
+  return {.M = constraints.C.transpose() * oracle::tree_mass_matrix(tree, constraints.q) * constraints.C,
+          .slopes = differences(psidd, psi, psid, tau, scene.n_u()),
+          .h = oracle::multiplier_inverse_dynamics<Wide>(tree, constraints, WideVector::Zero(scene.n())),
+          .psidd = psidd(psi, psid, tau)};
+}
 
 double difference(const auto& found, const auto& expected) {
   const double size = static_cast<double>(Wide(expected.cwiseAbs().maxCoeff()));
@@ -99,12 +139,11 @@ double difference(const auto& found, const auto& expected) {
 }
 
 /// The procedure in 113 bits: M, h and psi'', the worst relative difference.
-double in_wide(const SharedScene& scene, const ClosedMechanism& mechanism, const Expected& expected) {
+double in_wide(const SharedScene& scene, const State& state, const Expected& expected) {
   std::vector<Wide> parameters;
   for (double value : scene->default_parameters()) parameters.emplace_back(value);
   const auto model = make_model<Wide>(scene, WideSpan(parameters));
   Workspace<Wide> ws(model);
-  const auto& state = mechanism.state();
   const auto wide = [](const std::vector<double>& x) { return std::vector<Wide>(x.begin(), x.end()); };
   const auto psi = wide(state.psi), psid = wide(state.psid), tau = wide(state.input);
   const Wide t(state.t);
@@ -128,16 +167,48 @@ std::string text_of(const ClosedMechanism& mechanism, std::uint64_t seed) {
   return seed % 3 == 0 && mechanism.n() > 1 ? with_free_ones(text, 1) : text;
 }
 
+/// Of every fifth seed a tree stands beside the mechanism that closes.
+constexpr std::uint64_t kTrees = 5;
+
+/// A tree that moves freely but for its first coordinate; nothing where it has no other.
+class FreeTree {
+ public:
+  explicit FreeTree(std::uint64_t seed)
+      : mechanism_(seed, {.nonlinear = seed % 3 == 0, .loads = seed % 2 == 0, .springs = seed % 4 == 0}) {
+    if (mechanism_.n() < 2) return;
+    scene_ = scene_of(with_free_ones(mechanism_.scene_text(), 1));
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> pose(-0.5, 0.5), rate(-2, 2);
+    for (int i = 0; i < mechanism_.n(); ++i) {
+      state_.psi.push_back(pose(random));
+      state_.psid.push_back(rate(random));
+      state_.input.push_back(rate(random));
+    }
+  }
+  const SharedScene& scene() const { return scene_; }
+  const State& state() const { return state_; }
+  Expected expected() const { return expected_of(mechanism_, state_, *scene_); }
+
+ private:
+  oracle::RandomMechanism mechanism_;
+  SharedScene scene_;
+  State state_;
+};
+
+/// Seeds may be looked at side by side.
 class Comparison {
  public:
   Comparison()
       : programs_("closed_mechanisms", "relative", 1e-9, length(40, 1000) * 4),
         wide_("closed_mechanisms_wide", "relative", 1e-24, length(40, 1000)),
         // Constants that linear relations leave are known to a double's digits, in 113 bits too.
-        wide_linear_("closed_mechanisms_linear", "relative", 1e-12, length(40, 1000)) {}
+        wide_linear_("closed_mechanisms_linear", "relative", 1e-12, length(40, 1000)),
+        trees_("closed_mechanisms_free_trees", "relative", 1e-9, length(40, 1000) / kTrees * 5) {}
   ~Comparison() {
-    programs_.note(fmt::format("{} compared, {} too long to linearise, {} on another branch, {} ambiguous",
-                               compared_, too_long_, elsewhere_, ambiguous_));
+    programs_.note(fmt::format(
+        "{} compared, {} of them torn, {} too long to linearise, {} on another branch, {} ambiguous",
+        static_cast<int>(compared_), static_cast<int>(torn_), static_cast<int>(too_long_),
+        static_cast<int>(elsewhere_), static_cast<int>(ambiguous_)));
   }
 
   void look(std::uint64_t seed) {
@@ -158,15 +229,29 @@ class Comparison {
     Expected expected;
     ASSERT_TRUE(multipliers.look(expected));
     ++compared_;
-    (scene->linear.empty() ? wide_ : wide_linear_).look(in_wide(scene, mechanism, expected), [&] {
-      return fmt::format("seed {}", seed);
-    });
-    compare(seed, mechanism, scene, expected, Evaluation::interpreter);
+    torn_ += scene->started_rates() > 0;
+    take(scene->linear.empty() ? wide_ : wide_linear_, in_wide(scene, mechanism.state(), expected),
+         fmt::format("seed {}", seed));
+    compare(programs_, seed, mechanism.state(), scene, expected, Evaluation::interpreter);
     if (seed % (full_length() ? 50 : 20) == 1)
-      compare(seed, mechanism, scene, expected, Evaluation::machine_code);
+      compare(programs_, seed, mechanism.state(), scene, expected, Evaluation::machine_code);
+  }
+
+  void look_at_tree(std::uint64_t seed) {
+    SCOPED_TRACE(fmt::format("tree of seed {}", seed));
+    const FreeTree tree(seed);
+    if (!tree.scene()) return;
+    const Expected expected = tree.expected();
+    take(wide_, in_wide(tree.scene(), tree.state(), expected), fmt::format("tree of seed {}", seed));
+    compare(trees_, seed, tree.state(), tree.scene(), expected, Evaluation::interpreter);
   }
 
  private:
+  void take(Figure& figure, double value, const std::string& where) {
+    const std::lock_guard lock(figures_);
+    figure.look(value, [&] { return where; });
+  }
+
   /// Whether the pose that was drawn is the one that was put together. It must be no farther from the guess.
   bool is_nearest(const ClosedMechanism& mechanism, const Multipliers& multipliers) {
     double found = 0, drawn = 0, apart = 0;
@@ -182,7 +267,7 @@ class Comparison {
     return false;
   }
 
-  void compare(std::uint64_t seed, const ClosedMechanism& mechanism, const SharedScene& scene,
+  void compare(Figure& figure, std::uint64_t seed, const State& state, const SharedScene& scene,
                const Expected& expected, Evaluation how) {
     for (const Purpose purpose : kAll) {
       std::shared_ptr<const Equations> equations;
@@ -195,24 +280,33 @@ class Comparison {
       }
       Equations::Workspace program(equations, scene->default_parameters());
       auto out = program.outputs(purpose);
-      const auto& state = mechanism.state();
       EXPECT_EQ(program.evaluate(purpose, {state.psi, state.psid, state.input, state.t}, out), Status::ok);
       const WideMatrix right = expected_of(purpose, expected);
       const WideMatrix found =
           Eigen::Map<const Eigen::MatrixXd>(out.data(), right.rows(), right.cols()).cast<Wide>();
-      programs_.look(difference(found, right),
-                     [&] { return fmt::format("seed {}, {}", seed, name_of(purpose)); });
+      take(figure, difference(found, right), fmt::format("seed {}, {}", seed, name_of(purpose)));
     }
   }
 
-  Figure programs_, wide_, wide_linear_;
-  int compared_ = 0, too_long_ = 0, elsewhere_ = 0, ambiguous_ = 0;
+  std::mutex figures_;
+  Figure programs_, wide_, wide_linear_, trees_;
+  std::atomic<int> compared_ = 0, torn_ = 0, too_long_ = 0, elsewhere_ = 0, ambiguous_ = 0;
 };
 
 TEST(ClosedMechanisms, AgreeWithLagrangeMultipliersOnTheTreeThatTheyAreCutOpenTo) {
   Comparison comparison;
-  for (std::int64_t seed = 1; seed <= length(40, 1000); ++seed)
-    comparison.look(static_cast<std::uint64_t>(seed));
+  const auto last = static_cast<std::uint64_t>(length(40, 1000));
+  std::atomic<std::uint64_t> next = 1;
+  const auto work = [&] {
+    for (std::uint64_t seed = next++; seed <= last; seed = next++) {
+      comparison.look(seed);
+      if (seed % kTrees == 0) comparison.look_at_tree(seed);
+    }
+  };
+  std::vector<std::jthread> others;
+  for (unsigned i = 1; full_length() && i < std::thread::hardware_concurrency(); ++i)
+    others.emplace_back(work);
+  work();
 }
 
 }  // namespace

@@ -111,6 +111,20 @@ TEST(Assemble, BlocksFollowOneAnother) {
   EXPECT_NEAR(home_of(scene, "slide"), 0.2, 1e-15);
 }
 
+TEST(Assemble, LinksThatTurnAloneAreTornOff) {
+  const Scene scene = loaded(kOnThreeRods);
+  ASSERT_EQ(scene.blocks.size(), 1u);
+  EXPECT_EQ(scene.blocks[0].unknowns, (std::vector{0, 1, 2, 3}));
+  EXPECT_EQ(scene.blocks[0].cut, (std::vector{0, 1})) << "rod 1 and the platform";
+  EXPECT_EQ(scene.started, (std::vector{0, 1}));
+  EXPECT_EQ(scene.corrections(), 2);
+  // Where something else depends on a rod's angle it isn't alone, and of the spatial linkage nothing is.
+  const Scene driven = loaded(with(kOnThreeRods, "rod3]", "rod3, wheel]") + R"(constraints: {wheel: 2*rod3}
+)");
+  EXPECT_EQ(driven.blocks[0].cut, (std::vector{0, 1})) << "what isn't in a row doesn't count";
+  EXPECT_TRUE(loaded(kSpatialSliderCrank).blocks[0].cut.empty());
+}
+
 TEST(Assemble, AngleWhoseValueCountsHasAStart) {
   const Scene free = loaded(four_bar());
   EXPECT_TRUE(free.started.empty());

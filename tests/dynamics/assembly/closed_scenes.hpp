@@ -81,6 +81,31 @@ end_effector: {frame: slider, axes: [x]}
 home: {slide: 0.2 m, roll: 60 deg, tilt: -40 deg}
 )yaml";
 
+/// A platform on three rods, one of which a crank drives: no dyads, but the rods to the ground turn alone.
+inline const std::string kOnThreeRods = R"yaml(
+name: platform on three rods
+motors: [crank]
+coordinates: [rod1, turn, rod2, rod3]
+transforms:
+  - {from: 0, to: A, revolute: crank}
+  - {from: A, to: B, at: [0.2 m, 0, 0], revolute: rod1}
+  - {from: B, to: platform, at: [0.6 m, 0, 0], revolute: turn}
+  - {from: 0, to: C, at: [1 m, 0, 0], revolute: rod2}
+  - {from: 0, to: D, at: [0.3 m, 1.1 m, 0], revolute: rod3}
+closures:
+  - {name: rod 2, coincide: [{frame: C, point: [0.3 m, 0, 0]}, {frame: platform, point: [0.3 m, 0, 0]}], axes: [x, y]}
+  - {name: rod 3, coincide: [{frame: platform, point: [0.1 m, 0.25 m, 0]}, {frame: D, point: [0.7 m, 0, 0]}]}
+bodies:
+  - {frame: A, mass: 1 kg, center_of_mass: [0.1, 0, 0], inertia: {xx: 0, yy: 0.01, zz: 0.01}}
+  - {frame: B, mass: 2 kg, center_of_mass: [0.3, 0, 0], inertia: {xx: 0, yy: 0.05, zz: 0.05}}
+  - {frame: C, mass: 1.5 kg, center_of_mass: [0.15, 0, 0], inertia: {xx: 0, yy: 0.02, zz: 0.02}}
+  - {frame: D, mass: 1.5 kg, center_of_mass: [0.35, 0, 0], inertia: {xx: 0, yy: 0.04, zz: 0.04}}
+  - {frame: platform, mass: 3 kg, center_of_mass: [0.15, 0.1, 0], inertia: {xx: 0.03, yy: 0.03, zz: 0.05}}
+gravity: [0, -9.81, 0]
+end_effector: {frame: platform, axes: [x]}
+home: {crank: 70 deg, rod1: -60 deg, turn: -10 deg, rod2: 98 deg, rod3: -51 deg}
+)yaml";
+
 /// A text with one of its parts, which must occur, as another.
 inline std::string with(std::string text, const std::string& part, const std::string& other) {
   const auto at = text.find(part);
