@@ -28,15 +28,22 @@ void list_standing_inertias(const Robot& robot, LeftBehind& left) {
       left.add("inertias of links that stand still", robot.links[i].name, robot.links[i].inertial->place);
 }
 
-/// A scene's text, loaded; what is wrong with it is told of the file that it was made of.
-std::shared_ptr<const Scene> loaded(const std::string& text, const std::string& file) {
+/// What `make` gives; what is wrong with it is told of the file that it is made of.
+template <class Make>
+auto made_of(const std::string& file, const Make& make) {
   try {
-    auto scene = std::make_shared<const Scene>(load_scene(parse_document(text, "scene")));
-    require_inertia(scene, scene->default_parameters());
-    return scene;
+    return make();
   } catch (const InputError& error) {
     throw InputError(error.code, {file}, "what it describes can't be a scene: " + error.message);
   }
+}
+
+std::shared_ptr<const Scene> loaded(const std::string& text, const std::string& file) {
+  return made_of(file, [&] {
+    auto scene = std::make_shared<const Scene>(load_scene(parse_document(text, "scene")));
+    require_inertia(scene, scene->default_parameters());
+    return scene;
+  });
 }
 
 /// What an experiment says of itself before it begins.
@@ -85,6 +92,7 @@ Imported import_urdf(const std::string& text, const std::string& file, const Imp
     made.left.add("limits of effort that the weight alone comes too near to, of the joints", joint.name,
                   joint.place);
   }
+  const Tuning tuning = made_of(file, [&] { return moderate_tuning(draft, robot, roles, motion); });
   const std::string scene = scene_text(robot, names, roles, tip, free_axes(draft, motion), home);
   loaded(scene, file);
 
@@ -97,9 +105,8 @@ Imported import_urdf(const std::string& text, const std::string& file, const Imp
         std::pair{&roles.mimics, &made.following}})
     for (const int j : *joints) list->push_back(names.joints[static_cast<std::size_t>(j)]);
   made.scene = head_of(made, file) + scene;
-  made.experiment = experiment_head(made, file) +
-                    experiment_text(made.name + ".scene.yaml", robot, names, roles, home, motion,
-                                    moderate_tuning(draft, robot, roles, motion), limits);
+  made.experiment = experiment_head(made, file) + experiment_text(made.name + ".scene.yaml", robot, names,
+                                                                  roles, home, motion, tuning, limits);
   return made;
 }
 

@@ -44,9 +44,11 @@ std::vector<double> pose_at_target(const Scene& scene, const Motion& motion) {
   return psi;
 }
 
-/// Half a radian or a tenth of a metre, but a quarter of the way to the limit that is farther off.
+/// Half a radian or a tenth of a metre, but what the limit of velocity lets be in 20 s and a quarter of the
+/// way to the limit that is farther off.
 double moderate_step(const MotorLimits& limits, bool slides, double home) {
-  const double most = slides ? 0.1 : 0.5;
+  double most = slides ? 0.1 : 0.5;
+  if (limits.velocity) most = std::min(most, 10 * kSpare * *limits.velocity);
   if (!limits.position) return most;
   const double up = limits.position->second - home, down = home - limits.position->first;
   return up >= down ? std::min(most, up / 4) : -std::min(most, down / 4);
@@ -71,7 +73,7 @@ std::vector<std::size_t> overloaded(AtPoses& at, const Scene& scene, const std::
   std::vector<double> psi = scene.home, psid(psi.size()), psidd(psi.size());
   Eigen::VectorXd most = Eigen::VectorXd::Zero(scene.n());
   for (int k = 0; k <= kSteps; ++k) {
-    const double u = double(k) / kSteps, T = motion.duration;
+    const double u = static_cast<double>(k) / kSteps, T = motion.duration;
     for (std::size_t i = 0; i < psi.size(); ++i) {
       const double way = end[i] - scene.home[i];
       psi[i] = scene.home[i] + way * (u - std::sin(kTurn * u) / kTurn);
@@ -111,7 +113,8 @@ Motion moderate_motion(const std::shared_ptr<const Scene>& scene, const Robot& r
     for (std::size_t i = 0; i < limits.size(); ++i) {
       const bool slides = robot.joints[static_cast<std::size_t>(roles.motors[i])].slides();
       const double step = share * moderate_step(limits[i], slides, scene->home[i]);
-      motion.target.push_back(scene->home[i] + std::trunc(step * 1000) / 1000);
+      motion.target.push_back(scene->home[i] +
+                              (std::abs(step) < 0.01 ? step : std::trunc(step * 1000) / 1000));
     }
     motion.duration = least_duration(limits, *scene, motion);
     return motion;
@@ -147,6 +150,10 @@ Tuning moderate_tuning(const std::shared_ptr<const Scene>& scene, const Robot& r
     tuning.kv.push_back(2 * w * inertia);
   }
   constexpr double kTick = 1e-3, kStable = 2.5;  // rk4 keeps a pole p with |p| h below 2.79
+  if (!felt.allFinite() || !std::isfinite(fastest))
+    throw InputError(
+        "not_finite", {},
+        "masses, moments and lengths are so unlike that the mass matrix has no finite inverse at home");
   tuning.substeps = std::max(1, static_cast<int>(std::ceil(std::min(fastest * kTick / kStable, 1000.0))));
   tuning.lags = fastest * kTick > 0.5;
   return tuning;

@@ -35,6 +35,7 @@ struct Tuning {
   bool lags = false;           ///< whether rates change by that damping within a tick, so that what a tick
                                ///< measures is no ground to feed it forward from
 };
+/// Throws InputError("not_finite"), without a place, where the mass matrix has no finite inverse.
 Tuning moderate_tuning(const std::shared_ptr<const Scene>& scene, const Robot& robot, const Roles& roles,
                        const Motion& motion);
 
