@@ -47,6 +47,9 @@ void Columns::go(Passed& m, const Take& take) const {
     take("rms_position_error", "m", m.rms_position_error);
     if (settles_) take("settled_at", "s", m.settled_at);
   }
+  if (is_oriented_) take("max_orientation_error", "rad", m.max_orientation_error);
+  for (std::size_t i = 0; i < n_u_ && is_of_motors_; ++i)
+    take(fmt::format("max_motor_error[{}]", i), "motor", (*m.max_motor_error)[static_cast<Eigen::Index>(i)]);
   for (std::size_t i = 0; i < n_u_; ++i)
     take(fmt::format("max_torque[{}]", i), "torque", m.max_torque[static_cast<Eigen::Index>(i)]);
   if (!follows_path_) {
@@ -64,19 +67,24 @@ void Columns::go(Passed& m, const Take& take) const {
 }
 
 Columns::Columns(const Experiment& experiment, bool settles)
-    : follows_path_(experiment.has_path()),
+    : follows_path_(experiment.has_path() && experiment.scene->end_effector.named),
+      is_oriented_(follows_path_ && experiment.scene->end_effector.is_oriented()),
+      is_of_motors_(experiment.path.is_of_motors()),
       settles_(settles),
       closed_(experiment.scene->is_closed()),
       switches_(experiment.plant.partitions != nullptr),
       n_(experiment.scene->independent.size()),
       n_u_(experiment.scene->motors().size()) {
   Measures none;
+  none.max_motor_error = Vector::Zero(static_cast<Eigen::Index>(n_u_));
   none.max_torque = Vector::Zero(static_cast<Eigen::Index>(n_u_));
   none.final_psi = Vector::Zero(static_cast<Eigen::Index>(n_));
-  std::size_t motor = 0, coordinate = 0;
+  std::size_t motor = 0, coordinate = 0, off = 0;
   go(std::as_const(none), [&](const std::string& name, const std::string& unit, const auto&) {
     if (unit == "torque")
       all_.push_back({name, torque_unit(experiment.scene->motors()[motor++].linear)});
+    else if (unit == "motor")
+      all_.push_back({name, position_unit(experiment.scene->motors()[off++].linear)});
     else if (unit == "position")
       all_.push_back({name, position_unit(experiment.scene->independent[coordinate++].linear)});
     else
@@ -94,6 +102,8 @@ Measures Columns::measures(const Outcome& outcome) const {
   Measures measures;
   measures.follows_path = follows_path_;
   measures.max_torque = Vector::Constant(static_cast<Eigen::Index>(n_u_), kNeverMeasured);
+  if (is_of_motors_)
+    measures.max_motor_error = Vector::Constant(static_cast<Eigen::Index>(n_u_), kNeverMeasured);
   if (!follows_path_) measures.final_psi = Vector::Constant(static_cast<Eigen::Index>(n_), kNeverMeasured);
   auto at = outcome.values.begin();
   go(measures, [&](const auto&, const auto&, auto& value) { put(*at++, value); });

@@ -48,7 +48,7 @@ class Columns {
   template <class Passed, class Take>
   void go(Passed& measures, const Take& take) const;
 
-  bool follows_path_, settles_, closed_, switches_;
+  bool follows_path_, is_oriented_, is_of_motors_, settles_, closed_, switches_;
   std::size_t n_, n_u_;
   std::vector<Column> all_;
 };
