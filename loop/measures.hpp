@@ -25,9 +25,9 @@ struct Measures {
   double max_orientation_error =
       kNeverMeasured;                     ///< rad, of an end effector whose turn or direction is prescribed
   std::optional<Vector> max_motor_error;  ///< n_u, rad or m: along a path of the motors
-  Vector max_torque;                  ///< n_u, N m or N, largest magnitude of each motor's commanded torque
-  std::int64_t ticks = 0;             ///< the last tick recorded; N where the run is whole
-  std::string trajectory_sha256;      ///< of the doubles t, psi, psi', tau of ticks 0 to `ticks`; or empty
+  Vector max_torque;              ///< n_u, N m or N, largest magnitude of each motor's commanded torque
+  std::int64_t ticks = 0;         ///< the last tick recorded; N where the run is whole
+  std::string trajectory_sha256;  ///< of the doubles t, psi, psi', tau of ticks 0 to `ticks`; or empty
   /// s: from there on the position error was within what RecorderSettings say, to the last tick.
   double settled_at = kNeverMeasured;
   std::optional<double> diverged_at;  ///< s

@@ -79,7 +79,8 @@ class Writer {
     const std::vector<Statement> steps = statements_.of(Stage::run);
     line("namespace {{");
     const std::size_t parts = steps.size() <= kMostSteps ? 0 : write_parts(steps);
-    line("template <class Real, class K>\nMIXLOOP_FUNCTION inline void {}_run({}out) {{", style_.prefix, kTakes);
+    line("template <class Real, class K>\nMIXLOOP_FUNCTION inline void {}_run({}out) {{", style_.prefix,
+         kTakes);
     line("  (void)psi, (void)psid, (void)input, (void)t, (void)k;");
     if (parts > 0) line("  Real w[{}];", slots_);
     for (std::size_t i = 0; i < parts; ++i)
@@ -102,7 +103,8 @@ class Writer {
     std::vector<std::vector<std::size_t>> freed(count + 1);
     std::vector<std::size_t> idle;
     for (std::size_t part = 0; part < count; ++part) {
-      line("template <class Real, class K>\nMIXLOOP_PART void {}_part_{}({}w) {{", style_.prefix, part, kTakes);
+      line("template <class Real, class K>\nMIXLOOP_PART void {}_part_{}({}w) {{", style_.prefix, part,
+           kTakes);
       line("  (void)psi, (void)psid, (void)input, (void)t, (void)k;");
       const auto from = steps.begin() + static_cast<std::ptrdiff_t>(part * kMostSteps);
       const auto to = part + 1 == count ? steps.end() : from + static_cast<std::ptrdiff_t>(kMostSteps);

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-// Inlined whatever its size: a call would take a good part of the time. A graphics processor's compiler has the
-// same functions on either side, and no vectors.
+// Inlined whatever its size: a call would take a good part of the time. A graphics processor's compiler has
+// the same functions on either side, and no vectors.
 #if defined(__CUDACC__)
 #define MIXLOOP_FUNCTION __host__ __device__
 #define MIXLOOP_INLINE __host__ __device__ __forceinline__

@@ -261,8 +261,8 @@ MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount],
 
 template <int kTerms, int kCount>
 MIXLOOP_INLINE void sincos_of_affine(const double (&q)[kTerms], const double (&factor)[kTerms][kCount],
-                             const double (&constant)[kCount], double (&sine)[kCount],
-                             double (&cosine)[kCount]) {
+                                     const double (&constant)[kCount], double (&sine)[kCount],
+                                     double (&cosine)[kCount]) {
   for (int i = 0; i < kCount; ++i) {
     double x = constant[i];
     for (int k = 0; k < kTerms; ++k) x = fma(q[k], factor[k][i], x);
