@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "commands/commands.hpp"
-#include "commands/peers.hpp"
+#include "commands/modules.hpp"
 #include "commands/swept.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"

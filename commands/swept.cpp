@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "commands/modules.hpp"
 #include "commands/sweep_progress.hpp"
 #include "loop/output_file.hpp"
 #include "loop/result.hpp"
@@ -76,7 +77,7 @@ void write_tables(const std::filesystem::path& folder, const Sweep& sweep, const
   const Uninterrupted whole;
   const EachRun each = [&](const auto& told) { kept.each(told); };
   write_csv(folder / "table.csv", sweep, each);
-  if (has_hdf5()) write_hdf5(folder / "table.h5", sweep, each);
+  if (const WriteColumns hdf5 = hdf5_here()) write_columns(folder / "table.h5", sweep, each, hdf5);
 }
 
 void require_all(const Sweep& sweep, const SweepFolder& folder, const KeptRuns& kept) {
@@ -178,7 +179,7 @@ std::string summary(const Sweep& sweep, const Swept& swept, const SweepOptions& 
                                 : "  interrupted; the same command goes on with the rest\n";
   else if (!options.out.empty() && swept.is_whole() && options.part.is_whole())
     text += fmt::format("  kept in {}: table.csv, {}summary.json\n", printable_name(options.out),
-                        has_hdf5() ? "table.h5, " : "");
+                        hdf5_here() != nullptr ? "table.h5, " : "");
   else if (!options.out.empty())
     text += fmt::format("  kept in {}; once all shards have ended, --merge makes the table\n",
                         printable_name(options.out));

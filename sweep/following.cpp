@@ -72,26 +72,25 @@ bool follow(Peers& peers, const Sweep& sweep, const Engine& engine, int threads,
             {.next = [&] { return trays.next(); },
              .brought = [&](const std::vector<Outcome>& outcomes) { trays.bring(outcomes); },
              .goes_on = [&] { return !stopped; }});
+  // Whatever ends this, the threads end with what they have begun.
+  const struct Close {
+    Trays& trays;
+    ~Close() { trays.close(); }
+  } close{trays};
   bool told = false;
-  auto beat = Clock::now();
-  std::optional<Clock::time_point> closed;
+  auto beat = Clock::now(), heard = beat;
   for (;;) {
     while (const auto message = peers.receive()) {
+      heard = Clock::now();
       std::string_view rest = std::string_view(message->text).substr(1);
       const auto word = static_cast<PeerWord>(message->text.front());
       if (word == PeerWord::work) trays.put(runs_in(rest));
       if (word == PeerWord::stop) stopped = true;
-      if (word == PeerWord::end) {
-        trays.close();
-        crew.ended_within(patience);
-        return rest == "1";
-      }
+      if (word == PeerWord::end) return rest == "1";
     }
+    if (Clock::now() - heard > patience) return false;  // who leads has gone
     if (!goes_on()) stopped = true;
-    if (stopped && !closed) {
-      trays.close();
-      closed = Clock::now();
-    }
+    if (stopped) trays.close();
     bool over = false;
     try {
       over = crew.ended_within(kPause);
@@ -102,9 +101,7 @@ bool follow(Peers& peers, const Sweep& sweep, const Engine& engine, int threads,
     }
     for (auto& message : trays.brought()) peers.send(0, std::move(message));
     if (over && !std::exchange(told, true)) peers.send(0, message_of(PeerWord::done));
-    // Who leads has gone: nobody says so.
-    if (closed && Clock::now() - *closed > patience) return false;
-    if (Clock::now() - beat < std::chrono::seconds(1)) continue;
+    if (Clock::now() - beat < kBeat) continue;
     beat = Clock::now();
     peers.send(0, message_of(PeerWord::alive));
   }

@@ -23,6 +23,10 @@ Leading::Leading(Peers& peers, const Sweep& sweep, Work& work, std::chrono::mill
 void Leading::look() {
   while (const auto message = peers_.receive()) take(*message);
   const auto now = Clock::now();
+  if (now - told_ > kBeat) {
+    tell(message_of(PeerWord::alive));
+    told_ = now;
+  }
   for (std::size_t rank = 1; rank < others_.size(); ++rank) {
     const Peer& peer = others_[rank];
     if (peer.state != Peer::State::lost && peer.state != Peer::State::done && now - peer.heard > patience_)
@@ -83,9 +87,7 @@ void Leading::lose(int rank, const std::string& why) {
 }
 
 void Leading::stop() {
-  if (std::exchange(stopped_, true)) return;
-  for (std::size_t rank = 1; rank < others_.size(); ++rank)
-    peers_.send(static_cast<int>(rank), message_of(PeerWord::stop));
+  if (!std::exchange(stopped_, true)) tell(message_of(PeerWord::stop));
 }
 
 bool Leading::is_over() const {
@@ -100,10 +102,12 @@ void Leading::end() {
   for (std::size_t rank = 1; rank < others_.size(); ++rank)
     together =
         together && others_[rank].state != Peer::State::lost && others_[rank].state != Peer::State::starting;
-  for (std::size_t rank = 1; rank < others_.size(); ++rank)
-    if (others_[rank].state != Peer::State::lost)
-      peers_.send(static_cast<int>(rank), message_of(PeerWord::end, together ? "1" : "0"));
+  tell(message_of(PeerWord::end, together ? "1" : "0"));  // those given up for lost may yet hear it
   peers_.leave(together);
+}
+
+void Leading::tell(const std::string& message) {
+  for (int rank = 1; rank < peers_.size(); ++rank) peers_.send(rank, message);
 }
 
 }  // namespace mixloop

@@ -41,18 +41,20 @@ class Leading {
   void take(const Peers::Message& message);
   void hand_out(int rank);
   void lose(int rank, const std::string& why);
+  void tell(const std::string& message);
 
   Peers& peers_;
   const Sweep& sweep_;
   Work& work_;
   std::chrono::milliseconds patience_;
   std::function<void(const std::string&)> said_;
-  std::vector<Peer> others_;  ///< by rank; the first is this one
+  std::vector<Peer> others_;               ///< by rank; the first is this one
+  Clock::time_point told_ = Clock::now();  ///< that this one is still there
   bool stopped_ = false;
 };
 
 /// What the others do: go through the runs that the leading process hands them, `threads` at a time, until it
-/// has no more. Whether all left together.
+/// has no more, or is silent for `patience`. Whether all leave together.
 bool follow(Peers& peers, const Sweep& sweep, const Engine& engine, int threads,
             const std::function<bool()>& goes_on, std::chrono::milliseconds patience);
 

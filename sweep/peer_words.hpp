@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -15,13 +16,16 @@ enum class PeerWord : char {
   hello = 'h',    ///< to who leads: the sweep's hash, then its name; it takes runs, one message each
   ready = 'r',    ///< ... it takes one more
   brought = 'b',  ///< ... Runs, then their outcomes' bytes
-  alive = 'a',    ///< ... once a second
+  alive = 'a',    ///< ... once a second; also from who leads
   failed = 'f',   ///< ... it can't go on, and why
   done = 'd',     ///< ... it has brought all that it had begun
   work = 'w',     ///< from who leads: Runs
   stop = 's',     ///< ... it is to bring what is begun, and no more
   end = 'e',      ///< ... it is to leave, all together ('1') or not ('0')
 };
+
+/// How often each says that it is still there.
+inline constexpr std::chrono::seconds kBeat(1);
 
 inline std::string message_of(PeerWord word, std::string_view rest = {}) {
   return std::string(1, static_cast<char>(word)) + std::string(rest);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "sweep/column_file.hpp"
 #include "sweep/sweep.hpp"
 
 namespace mixloop {
@@ -17,11 +18,9 @@ using EachRun = std::function<void(const std::function<void(const Outcome&)>& to
 /// RunFault("cannot_write").
 void write_csv(const std::filesystem::path& file, const Sweep& sweep, const EachRun& each);
 
-/// Whether this build can write HDF5.
-bool has_hdf5();
-
-/// The same as HDF5: a chunked dataset a column, its unit as an attribute. Throws RunFault("cannot_write");
-/// without HDF5 std::logic_error.
-void write_hdf5(const std::filesystem::path& file, const Sweep& sweep, const EachRun& each);
+/// The same by a module: as HDF5 a chunked dataset a column, its unit as an attribute. Throws
+/// RunFault("cannot_write").
+void write_columns(const std::filesystem::path& file, const Sweep& sweep, const EachRun& each,
+                   WriteColumns write);
 
 }  // namespace mixloop

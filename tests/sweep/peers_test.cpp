@@ -60,7 +60,7 @@ class SweepPeers : public testing::Test {
   }
 
   /// The table that the leading one comes to with these.
-  std::string led(const std::vector<Follower>& others) {
+  std::string led(const std::vector<Follower>& others, milliseconds patience = milliseconds(60'000)) {
     const ScratchFolder folder;
     const SweepFolder kept(folder.path(), sweep, {});
     Post post;
@@ -73,7 +73,7 @@ class SweepPeers : public testing::Test {
         others[static_cast<std::size_t>(rank - 1)](peer);
       });
     go_through(sweep, kept, {},
-               {.peers = &leader, .patience = milliseconds(300), .said = [&](const std::string& text) {
+               {.peers = &leader, .patience = patience, .said = [&](const std::string& text) {
                   said.push_back(text);
                 }});
     together = leader.left();
@@ -84,7 +84,7 @@ class SweepPeers : public testing::Test {
 
   void work(PeerThread& peer) const {
     EXPECT_TRUE(follow(
-        peer, sweep, run_one_by_one, 1, [] { return true; }, milliseconds(3000)));
+        peer, sweep, run_one_by_one, 1, [] { return true; }, milliseconds(60'000)));
   }
   /// Takes some runs, and is never heard again.
   void die(PeerThread& peer) const {
@@ -114,7 +114,7 @@ TEST_F(SweepPeers, ComeToTheSameTable) {
 
 TEST_F(SweepPeers, OneThatFallsSilentIsToldAndItsRunsAreDoneByOthers) {
   const std::string whole = alone();
-  EXPECT_TRUE(led({[&](PeerThread& peer) { die(peer); }}) == whole);
+  EXPECT_TRUE(led({[&](PeerThread& peer) { die(peer); }}, milliseconds(300)) == whole);
   EXPECT_EQ(together, false);
   EXPECT_THAT(said, ElementsAre(HasSubstr("rank 1 (the one that dies) has been silent for 0.3 s; the ")));
 }
@@ -135,7 +135,7 @@ TEST_F(SweepPeers, OneThatCanNotGoOnSaysWhy) {
   const std::string whole = alone();
   EXPECT_TRUE(led({[&](PeerThread& peer) {
                 EXPECT_FALSE(follow(
-                    peer, sweep, broken, 1, [] { return true; }, milliseconds(3000)));
+                    peer, sweep, broken, 1, [] { return true; }, milliseconds(60'000)));
               }}) == whole);
   EXPECT_THAT(said, ElementsAre(HasSubstr("can't go on: out of paper")));
 }
