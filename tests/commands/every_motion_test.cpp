@@ -37,7 +37,11 @@ TEST(EveryMotion, HasTheSameBytesOnABadNetwork) {
         Motion{"four_bar_rocker_turns", {"duration=0.8 s", "expect={}"}},
         Motion{"kapitza_upright", {"duration=0.5 s", "expect={}"}},
         Motion{"bead_on_hoop", {"duration=0.5 s", "expect={}"}}, Motion{"motor_path", {}},
-        Motion{"scara_pick_and_place", {}}, Motion{"palletiser_stacks", {}}}) {
+        Motion{"scara_pick_and_place", {}}, Motion{"palletiser_stacks", {}},
+        Motion{"puma_560_seam",
+               {"path={via: [{at: [0.6, -0.25, 0], direction: [0, 0.342, -0.9397]}, {at: [0.6, -0.2, 0], "
+                "duration: "
+                "0.3 s}], redundancy: least_norm}"}}}) {
     SCOPED_TRACE(motion.name);
     const auto alone = result_of(motion, "simulate");
     const auto lossy = result_of(motion, "run", bad_network(++seed));
