@@ -141,7 +141,7 @@ bool compare(const char* title, const ScenePtr& scene, ClosedEngines engines, in
       pass(engines[0], known, kStates);
       const double yardstick = pass(engines[0], known, kStates);
       const int count =
-          std::isfinite(rows[i].ns) ? std::clamp(static_cast<int>(20000 / rows[i].ns), 4, kStates) : 4;
+          std::isfinite(rows[i].ns) ? std::clamp(static_cast<int>(100000 / rows[i].ns), 4, kStates) : 4;
       pass(engines[i], known, count);
       const double ns = pass(engines[i], known, count);
       rows[i].ns = std::min(rows[i].ns, ns);

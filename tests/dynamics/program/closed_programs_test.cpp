@@ -60,19 +60,16 @@ const std::string kDriven = with(with(kTelescope,
                                       ""),
                                  "frame: coupler", "frame: rocker");
 
-/// The angles of two rods count, of one that is cut and of one that is not.
-const std::string kSprungRods =
-    kOnThreeRods +
-    "loads: [{coordinate: rod3, stiffness: 2 N m/rad}, {coordinate: rod1, stiffness: 3 N m/rad}]\n";
-/// The platform slides on its rod, which turns with the crank by a gear.
-const std::string kOnSlide =
-    with(with(with(kOnThreeRods, "[rod1, turn,", "[gear, slide, turn,"),
-              "revolute: rod1}\n  - {from: B, to: platform, at: [0.6 m, 0, 0], revolute: turn}",
-              "revolute: gear}\n  - {from: B, to: slide, prismatic: slide, axis: [1, 0, 0]}\n"
-              "  - {from: slide, to: platform, revolute: turn}"),
-         "rod1: -25 deg,", "slide: 0.6 m,");
-const std::string kGeared =
-    with(kOnSlide, "closures:", "constraints: {gear: \"-25 deg + 0.3*(turn + 7 deg)\"}\nclosures:");
+/// Torn: the platform slides on its rod, which turns with it by a gear. The angles of two links count, of one
+/// that is cut and of one that is not.
+const std::string kTorn =
+    with(with(with(with(kOnThreeRods, "[rod1, turn,", "[gear, slide, turn,"),
+                   "revolute: rod1}\n  - {from: B, to: platform, at: [0.6 m, 0, 0], revolute: turn}",
+                   "revolute: gear}\n  - {from: B, to: slide, prismatic: slide, axis: [1, 0, 0]}\n"
+                   "  - {from: slide, to: platform, revolute: turn}"),
+              "rod1: -25 deg,", "slide: 0.6 m,"),
+         "closures:", "constraints: {gear: \"-25 deg + 0.3*(turn + 7 deg)\"}\nclosures:") +
+    "loads: [{coordinate: rod3, stiffness: 2 N m/rad}, {coordinate: turn, stiffness: 3 N m/rad}]\n";
 
 struct Closed {
   const char* name;
@@ -214,14 +211,14 @@ TEST_P(ClosedPrograms, GoOnTheSameWayFromAnAnchorThatIsPutBack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , ClosedPrograms,
-    ::testing::Values(Closed{"FourBar", *new std::string(four_bar()), false}, Closed{"Wound", kWound, false},
-                      Closed{"Inclined", kInclined, false}, Closed{"Inverted", kInverted, false},
-                      Closed{"Driven", kDriven, false}, Closed{"Torn", kOnThreeRods, true},
-                      Closed{"TornAndWound", kSprungRods, true}, Closed{"TornAtASlide", kGeared, true},
-                      Closed{"Spatial", kSpatialSliderCrank, true}),
-    [](const auto& of) { return std::string(of.param.name); });
+INSTANTIATE_TEST_SUITE_P(, ClosedPrograms,
+                         ::testing::Values(Closed{"FourBar", *new std::string(four_bar()), false},
+                                           Closed{"Wound", kWound, false},
+                                           Closed{"Inclined", kInclined, false},
+                                           Closed{"Inverted", kInverted, false},
+                                           Closed{"Driven", kDriven, false}, Closed{"Torn", kTorn, true},
+                                           Closed{"Spatial", kSpatialSliderCrank, true}),
+                         [](const auto& of) { return std::string(of.param.name); });
 
 TEST(ClosedProgram, OfAFourBarTakesNoMoreThanByHand) {
   const auto count = trace(shared(four_bar()), Purpose::forward_dynamics).program.run_operations();
