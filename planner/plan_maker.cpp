@@ -34,10 +34,15 @@ const Plan::Settings& checked(const Plan::Settings& settings, const Model<double
   return settings;
 }
 
+/// Of a path of the end effector. What the motors can't settle is said where the path stands.
 std::unique_ptr<InverseKinematics> inverse_of(const Model<double>& model, const Path& path) {
   if (path.is_of_motors()) return nullptr;
-  return std::make_unique<InverseKinematics>(model, InverseKinematics::Method::closed_form_if_known,
-                                             InverseKinematics::Redundancy{path.held, path.least_norm});
+  try {
+    return std::make_unique<InverseKinematics>(model, InverseKinematics::Method::closed_form_if_known,
+                                               InverseKinematics::Redundancy{path.held, path.least_norm});
+  } catch (const InputError& error) {
+    throw error.code == "no_inverse" ? InputError(error.code, path.place, error.message) : error;
+  }
 }
 
 }  // namespace
