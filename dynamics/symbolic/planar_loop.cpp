@@ -66,6 +66,7 @@ class Walk {
     if (!normal_) return std::nullopt;
     PlanarLoop loop;
     const auto [one, other] = plane();
+    loop.has_axes = has_axes();
     for (const Part& part : parts_) {
       const V3 is = part.is;
       loop.vectors.push_back({{is.dot(one), is.dot(other)}, part.turned, part.length});
@@ -130,6 +131,11 @@ class Walk {
   bool all_across() const {
     return !normal_ || std::all_of(slides_.begin(), slides_.end(),
                                    [&](const V3& slide) { return along(*normal_, slide) == 0; });
+  }
+
+  bool has_axes() const {
+    return std::any_of(normal_->begin(), normal_->end(),
+                       [](const E& part) { return std::abs(part.number()) == 1; });
   }
 
   /// Two directions across the normal: the axes' own where it is one of them.

@@ -42,6 +42,7 @@ struct LoopVector {
 /// second, whose sum is nothing when it is closed.
 struct PlanarLoop {
   std::vector<LoopVector> vectors;
+  bool has_axes = false;  ///< the plane is that of two of the axes in which closures have their rows
 };
 
 /// The loop that a closure between two points makes; nothing where it isn't planar.

@@ -38,7 +38,7 @@ class Links {
     std::vector<Link> links;
     for (const auto& rows : loops()) {
       const auto loop = planar_loop(model_, block_.rows[rows[0]].closure);
-      if (!loop) continue;
+      if (!loop || !loop->has_axes) continue;
       std::optional<Link> longest;
       double most = 0;
       for (std::size_t i = 0; i < block_.unknowns.size(); ++i) {
@@ -62,7 +62,7 @@ class Links {
     std::vector<Link> links;
     for (const auto& rows : loops()) {
       const auto loop = planar_loop(model_, block_.rows[rows[0]].closure);
-      if (!loop) continue;
+      if (!loop || !loop->has_axes) continue;
       for (int j : block_.unknowns) {
         if (has(block_.cut, j)) continue;
         auto link = link_of(*loop, j);
@@ -261,7 +261,8 @@ std::vector<int> cut_of(const Model<E>& model, int block, const ExpressionMatrix
   const auto& unknowns = model.scene->blocks[static_cast<std::size_t>(block)].unknowns;
   const auto links = Links(model, block, along).found(slopes);
   std::vector<int> cut;
-  if (links.empty() || links.size() == unknowns.size()) return cut;
+  const auto left = static_cast<Eigen::Index>(unknowns.size() - links.size());
+  if (links.empty() || left == 0 || left > SmallSystem<E>::kMostByCofactors) return cut;
   for (int j : unknowns)
     if (std::none_of(links.begin(), links.end(), [&](const Link& link) { return link.unknown == j; }))
       cut.push_back(j);

@@ -23,7 +23,7 @@ namespace mixloop::stress {
 namespace {
 
 using oracle::ClosedMechanism;
-using Looked = ClosedMechanism::State;
+using MechanismState = ClosedMechanism::State;
 using WideVector = oracle::VectorX<Wide>;
 using WideMatrix = oracle::MatrixX<Wide>;
 
@@ -58,7 +58,7 @@ WideMatrix differences(const Psidd& psidd, const WideVector& psi, const WideVect
 }
 
 /// Nothing acts on what moves freely.
-WideVector torques(const Looked& state, const Scene& scene) {
+WideVector torques(const MechanismState& state, const Scene& scene) {
   WideVector tau = widened(state.input).head(scene.n());
   tau.tail(scene.n() - scene.n_u()).setZero();
   return tau;
@@ -116,7 +116,8 @@ class Multipliers {
 };
 
 /// What multipliers on its joints say of a random tree.
-Expected expected_of(const oracle::RandomMechanism& mechanism, const Looked& state, const Scene& scene) {
+Expected expected_of(const oracle::RandomMechanism& mechanism, const MechanismState& state,
+                     const Scene& scene) {
   const WideVector psi = widened(state.psi), psid = widened(state.psid), tau = torques(state, scene);
   const Wide t(state.t);
   const auto tree = mechanism.tree<Wide>(t);
@@ -139,7 +140,7 @@ double difference(const auto& found, const auto& expected) {
 }
 
 /// The procedure in 113 bits: M, h and psi'', the worst relative difference.
-double in_wide(const SharedScene& scene, const Looked& state, const Expected& expected) {
+double in_wide(const SharedScene& scene, const MechanismState& state, const Expected& expected) {
   std::vector<Wide> parameters;
   for (double value : scene->default_parameters()) parameters.emplace_back(value);
   const auto model = make_model<Wide>(scene, WideSpan(parameters));
@@ -186,13 +187,13 @@ class FreeTree {
     }
   }
   const SharedScene& scene() const { return scene_; }
-  const Looked& state() const { return state_; }
+  const MechanismState& state() const { return state_; }
   Expected expected() const { return expected_of(mechanism_, state_, *scene_); }
 
  private:
   oracle::RandomMechanism mechanism_;
   SharedScene scene_;
-  Looked state_;
+  MechanismState state_;
 };
 
 /// Seeds may be looked at side by side.
@@ -267,7 +268,7 @@ class Comparison {
     return false;
   }
 
-  void compare(Figure& figure, std::uint64_t seed, const Looked& state, const SharedScene& scene,
+  void compare(Figure& figure, std::uint64_t seed, const MechanismState& state, const SharedScene& scene,
                const Expected& expected, Evaluation how) {
     for (const Purpose purpose : kAll) {
       std::shared_ptr<const Equations> equations;

@@ -160,11 +160,14 @@ TEST_P(ClosedPrograms, OfAllTracersAgreeAndTheirSlopesAreDifferences) {
 }
 
 TEST_P(ClosedPrograms, GiveTheSameBitsCompiledAndInterpreted) {
-  Equations::Workspace code(equations_of(scene, Evaluation::machine_code, kAll), parameters),
-      interpreted(equations_of(scene, Evaluation::interpreter, kAll), parameters);
+  // Long programs take a compiler long: of torn blocks shipped_closures_test has all purposes.
+  std::vector<Purpose> purposes{Purpose::forward_dynamics};
+  if (scene->started_rates() == 0) purposes = kAll;
+  Equations::Workspace code(equations_of(scene, Evaluation::machine_code, purposes), parameters),
+      interpreted(equations_of(scene, Evaluation::interpreter, purposes), parameters);
   if (code.equations().evaluation() != Evaluation::machine_code) GTEST_SKIP() << "no compiler";
   for (const Pose& pose : walk())
-    for (Purpose purpose : kAll) {
+    for (Purpose purpose : purposes) {
       auto one = code.outputs(purpose), other = one;
       code.evaluate(purpose, {pose.psi, pose.psid, pose.input, pose.t}, one);
       interpreted.evaluate(purpose, {pose.psi, pose.psid, pose.input, pose.t}, other);
