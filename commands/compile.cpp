@@ -16,6 +16,7 @@
 #include "notation/long_work.hpp"
 #include "processes/command_line.hpp"
 #include "report/progress.hpp"
+#include "sweep/kernel/kernel_source.hpp"
 
 namespace mixloop {
 namespace {
@@ -35,9 +36,14 @@ std::vector<Purpose> purposes_of(const CompileLine& options) {
   return purposes;
 }
 
+std::string source_of(const CompileLine& options, const std::shared_ptr<const Scene>& scene) {
+  if (options.emit == "cuda") return kernel_source({scene, scene, true, true}, KernelTarget::cuda);
+  return firmware_source(scene, purposes_of(options),
+                         options.c_library ? Trigonometry::c_library : Trigonometry::inlined);
+}
+
 int write_source(const CompileLine& options, const std::shared_ptr<const Scene>& scene) {
-  const std::string source = firmware_source(
-      scene, purposes_of(options), options.c_library ? Trigonometry::c_library : Trigonometry::inlined);
+  const std::string source = source_of(options, scene);
   if (options.file.empty()) {
     fmt::print("{}", source);
     return 0;
@@ -92,7 +98,8 @@ void add_compile_command(CLI::App& app, int& status) {
   auto* command = app.add_subcommand(
       "compile", "a scene's programs as machine code (kept in the cache), or as C++ source");
   command->add_option("scene", options->scene, "the scene file")->required()->type_name("SCENE");
-  command->add_option("--emit", options->emit, "write the source instead")->check(CLI::IsMember({"cpp"}));
+  command->add_option("--emit", options->emit, "write the source instead")
+      ->check(CLI::IsMember({"cpp", "cuda"}));
   command->add_option("--purpose", options->purposes, "only these; all when omitted")
       ->delimiter(',')
       ->check(CLI::IsMember(names));
@@ -101,7 +108,9 @@ void add_compile_command(CLI::App& app, int& status) {
   command->add_flag("--c-library", options->c_library, "sine and cosine from <math.h>, not inlined");
   add_common_options(*command, *options);
   command->footer(
-      "The source is C++17 with a C interface and needs nothing but <math.h>.\n"
+      "The source is C++17 with a C interface and needs nothing but <math.h>. With --emit cuda it is the "
+      "whole closed\n"
+      "loop of a sweep's run (law, plant by rk4, what is measured), a run a thread: for nvcc -fmad=false.\n"
       "Example:\n"
       "  mixloop compile scenes/mixed_loop_robot.yaml --emit cpp --purpose forward_dynamics,mass_times "
       "--file robot.cpp");

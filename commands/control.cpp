@@ -61,7 +61,7 @@ class PlantSought {
  private:
   void on_state(Bytes bytes) {
     const auto header = peek(bytes);
-    if (!header || header->n < 1 || header->n > kMost || header->session == 0 || header->seq < 0) return;
+    if (!header || header->n < 0 || header->n > kMost || header->session == 0 || header->seq < 0) return;
     // Length and type are looked at before anything is taken for as many coordinates as it claims.
     Inbox<state_t> inbox(header->n);
     if (inbox.read(bytes)) return;

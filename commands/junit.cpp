@@ -11,15 +11,31 @@
 namespace mixloop {
 namespace {
 
-/// What was measured, as properties of the test.
-void add_measures(tinyxml2::XMLElement& test, const RunFigures& run) {
-  auto* list = test.InsertNewChildElement("properties");
-  const auto add = [&](const std::string& name, double value, const std::string& unit) {
+/// Of what was measured, in the order in which it is called.
+class Properties {
+ public:
+  explicit Properties(tinyxml2::XMLElement& test) : list_(*test.InsertNewChildElement("properties")) {}
+
+  void operator()(const std::string& name, double value, const std::string& unit) {
     if (!std::isfinite(value)) return;
-    auto* property = list->InsertNewChildElement("property");
+    auto* property = list_.InsertNewChildElement("property");
     property->SetAttribute("name", fmt::format("{} [{}]", name, unit).c_str());
     property->SetAttribute("value", fmt::format("{}", value).c_str());
-  };
+  }
+
+ private:
+  tinyxml2::XMLElement& list_;
+};
+
+void add_figures(tinyxml2::XMLElement& test, const SweepFigures& sweep) {
+  Properties add(test);
+  add("runs", static_cast<double>(sweep.runs), "1");
+  for (const auto& figure : sweep.figures) add(figure.name, figure.value, figure.unit);
+}
+
+/// What was measured, as properties of the test.
+void add_measures(tinyxml2::XMLElement& test, const RunFigures& run) {
+  Properties add(test);
   add("max_position_error", run.measures.max_position_error, "m");
   add("time_of_max_position_error", run.measures.time_of_max_position_error, "s");
   add("final_position_error", run.measures.final_position_error, "m");
@@ -50,9 +66,14 @@ void write_junit(const std::string& file, std::span<const Result> results) {
       test->SetAttribute("time", result.run->wall_time);
       add_measures(*test, *result.run);
     }
-    if (result.error && result.judged.verdict == Verdict::interrupted) {
+    if (result.sweep) {
+      test->SetAttribute("time", result.sweep->wall_time);
+      add_figures(*test, *result.sweep);
+    }
+    if (result.judged.verdict == Verdict::interrupted && (result.error || result.sweep)) {
       ++skipped;
-      test->InsertNewChildElement("skipped")->SetAttribute("message", result.error->message.c_str());
+      test->InsertNewChildElement("skipped")->SetAttribute(
+          "message", result.error ? result.error->message.c_str() : "interrupted");
     } else if (result.error) {
       ++errors;
       auto* element = test->InsertNewChildElement("error");

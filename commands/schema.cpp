@@ -7,6 +7,7 @@
 #include "dynamics/scene/scene_keys.hpp"
 #include "loop/experiment_keys.hpp"
 #include "processes/command_line.hpp"
+#include "sweep/request.hpp"
 
 namespace mixloop {
 namespace {
@@ -71,11 +72,11 @@ Json schema_of(const Keys& keys) {
 
 void add_schema_command(CLI::App& app, int& status) {
   auto kind = std::make_shared<std::string>();
-  auto* command =
-      app.add_subcommand("schema", "JSON Schema of a scene or an experiment, for editors and checks");
-  command->add_option("kind", *kind, "scene or experiment")
+  auto* command = app.add_subcommand(
+      "schema", "JSON Schema of a scene, an experiment or a sweep, for editors and checks");
+  command->add_option("kind", *kind, "scene, experiment or sweep")
       ->required()
-      ->check(CLI::IsMember({"scene", "experiment"}))
+      ->check(CLI::IsMember({"scene", "experiment", "sweep"}).description(""))
       ->type_name("KIND");
   command->footer(
       "An editor completes and checks by it; what numbers, units and formulas mean is checked when a file is "
@@ -85,7 +86,9 @@ void add_schema_command(CLI::App& app, int& status) {
       "  # yaml-language-server: $schema=experiment.schema.json     in the file's first line");
   command->callback([kind, &status] {
     Json json = {{"$schema", "http://json-schema.org/draft-07/schema#"}};
-    json.update(schema_of(*kind == "scene" ? scene_keys() : experiment_keys()));
+    json.update(schema_of(*kind == "scene"   ? scene_keys()
+                          : *kind == "sweep" ? sweep_keys()
+                                             : experiment_keys()));
     print_json(json);
     status = 0;
   });

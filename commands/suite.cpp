@@ -7,18 +7,24 @@
 
 #include "loop/cases.hpp"
 #include "notation/utf8.hpp"
+#include "sweep/request.hpp"
 
 namespace mixloop {
 namespace {
 
 void add_runs(const std::string& file, std::vector<SuiteRun>& runs) {
   const std::string stem = printable_name(std::filesystem::path(file).stem().string());
+  if (is_sweep(file)) {
+    runs.push_back({.name = name_of_sweep(file), .file = file, .is_sweep = true});
+    return;
+  }
   try {
     const auto cases = cases_of(file);
-    for (const Case& one : cases) runs.push_back({name_with_case(stem, one.name), file, one.sets, {}});
-    if (cases.empty()) runs.push_back({stem, file, {}, {}});
+    for (const Case& one : cases)
+      runs.push_back({.name = name_with_case(stem, one.name), .file = file, .sets = one.sets});
+    if (cases.empty()) runs.push_back({.name = stem, .file = file});
   } catch (const InputError& error) {
-    runs.push_back({stem, file, {}, error});
+    runs.push_back({.name = stem, .file = file, .unusable = error});
   }
 }
 

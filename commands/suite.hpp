@@ -9,12 +9,13 @@
 
 namespace mixloop {
 
-/// One run of a suite: an experiment, or a case of one.
+/// One run of a suite: an experiment, a case of one, or a sweep.
 struct SuiteRun {
   std::string name;  ///< unlike any other's, as it can be shown
   std::string file;
-  std::vector<std::string> sets;       ///< of the case
-  std::optional<InputError> unusable;  ///< why the file's cases can't be told
+  std::vector<std::string> sets = {};       ///< of the case
+  std::optional<InputError> unusable = {};  ///< why the file's cases can't be told
+  bool is_sweep = false;                    ///< many runs, held as one
 };
 
 /// The runs of experiment files, in their order, an experiment's cases one after the other. Where two would

@@ -15,6 +15,7 @@
 #include "commands/launched.hpp"
 #include "commands/simulated.hpp"
 #include "commands/suite.hpp"
+#include "commands/swept.hpp"
 #include "notation/long_work.hpp"
 #include "notation/number_text.hpp"
 #include "processes/bus_line.hpp"
@@ -63,8 +64,22 @@ std::string folder_of(const SuiteRun& run, const TrackLine& options) {
   return (std::filesystem::path(options.out) / name).string();
 }
 
+/// Always in this process: its runs are those of `simulate`.
+Result tracked_sweep(const SuiteRun& run, const TrackLine& options, const StopSwitch& stop) {
+  if (options.attach)
+    throw InputError(
+        "out_of_range", {run.file},
+        "a sweep runs in this process, and listens to no other; expected track without --attach");
+  SweepRequest request = read_sweep(run.file);
+  for (const Override& one : options.overrides()) request.overrides.push_back(one);
+  const Sweep sweep(run.name, request, options.evaluation, false);
+  return result_of(
+      sweep, swept(sweep, {.out = folder_of(run, options), .threads = options.jobs, .quiet = true}, stop));
+}
+
 Result tracked(const SuiteRun& run, const TrackLine& options, const StopSwitch& stop) {
   if (run.unusable) throw InputError(*run.unusable);
+  if (run.is_sweep) return tracked_sweep(run, options, stop);
   TrackLine line = options;
   line.sets.insert(line.sets.begin(), run.sets.begin(), run.sets.end());
   Experiment experiment = load_experiment(std::filesystem::path(run.file), line.overrides());
@@ -108,13 +123,30 @@ Result tracked_or_error(const SuiteRun& run, const TrackLine& options, const Sto
   }
 }
 
-/// What there is to say of a motion without a path.
+/// What there is to say of a motion where no end effector follows a path.
 std::string free_motion(const Measures& measures) {
-  std::string text = "final";
+  std::string text;
+  if (measures.max_motor_error) {
+    text = "motors off by";
+    for (const double error : *measures.max_motor_error) text += " " + fixed(error, 7);
+    text += ", ";
+  }
+  text += "final";
   for (const double psi : measures.final_psi.value_or(Vector())) text += " " + fixed(psi, 7);
   if (measures.energy_drift && !std::isnan(*measures.energy_drift))
     text += fmt::format(", energy drift {:.3g}", *measures.energy_drift);
   return text;
+}
+
+void print_sweep(const Result& result) {
+  const SweepFigures& sweep = *result.sweep;
+  std::string text = fmt::format("{} of {} runs", sweep.done, sweep.runs);
+  for (std::size_t i = 0; i < std::min<std::size_t>(sweep.figures.size(), 2); ++i)
+    text +=
+        fmt::format(", {} {:.6g} {}", sweep.figures[i].name, sweep.figures[i].value, sweep.figures[i].unit);
+  for (const auto& line : result.judged.missed) text += "; " + line;
+  fmt::print("{:<12} {:<28} {}\n", name_of(result.judged.verdict), result.experiment, text);
+  flush_standard_output();
 }
 
 void print_line(const Result& result) {
@@ -124,6 +156,7 @@ void print_line(const Result& result) {
                error->where, error->where.empty() ? "" : ": ", error->message);
     return;
   }
+  if (result.sweep) return print_sweep(result);
   const Measures& measures = result.run->measures;
   std::string text = measures.diverged_at     ? fmt::format("diverged at {:.6g} s", *measures.diverged_at)
                      : !measures.follows_path ? free_motion(measures)
@@ -211,7 +244,7 @@ void add_track_command(CLI::App& app, int& status) {
   auto options = std::make_shared<TrackLine>();
   auto* command =
       app.add_subcommand("track", "tracking-error tests: runs experiments and holds what each expects");
-  command->add_option("experiments", options->experiments, "experiment files")
+  command->add_option("experiments", options->experiments, "experiment files, and sweeps' (*.sweep.yaml)")
       ->required()
       ->type_name("EXPERIMENT...");
   add_common_options(*command, *options);
@@ -247,7 +280,7 @@ void add_track_command(CLI::App& app, int& status) {
   command->footer(
       "One line each: held, missed (which bound), diverged, or error. An experiment with `expect: {diverges: "
       "true}` is\n"
-      "held when it diverges. Exits with the highest status.\n"
+      "held when it diverges; a sweep is one test, its own `expect` held. Exits with the highest status.\n"
       "Example:\n"
       "  mixloop track experiments/*.yaml --jobs 4 --junit track.xml --baseline last.json");
   command->callback([options, &status] { status = run(*options); });

@@ -41,18 +41,6 @@ NodePtr with_path_from(const NodePtr& mapping, std::string_view key, const std::
   return changed;
 }
 
-/// A base's document as it reads from another folder, `steps` being its own from there.
-NodePtr moved(const NodePtr& document, const std::filesystem::path& steps) {
-  const NodePtr changed = with_path_from(document, "scene", steps);
-  const NodePtr controller =
-      changed->kind == Node::Kind::mapping ? find_entry(*changed, "controller") : nullptr;
-  if (!controller) return changed;
-  auto result = copy_of(*changed);
-  std::ranges::find(result->entries, "controller", &Node::Entry::key)->value =
-      with_path_from(with_path_from(controller, "scene", steps), "file", steps);
-  return result;
-}
-
 NodePtr on_base(const NodePtr& document, const std::filesystem::path& file, std::size_t depth) {
   const NodePtr base = document->kind == Node::Kind::mapping ? find_entry(*document, "base") : nullptr;
   if (!base) return document;
@@ -67,7 +55,7 @@ NodePtr on_base(const NodePtr& document, const std::filesystem::path& file, std:
     throw InputError("cyclic_definition", base->place,
                      "the experiment's base leads on through more than " + std::to_string(kMostBases) +
                          " files, or back to itself; expected a base that ends");
-  const NodePtr below = moved(on_base(read_document(other), other, depth + 1), steps.parent_path());
+  const NodePtr below = as_read_from(on_base(read_document(other), other, depth + 1), steps.parent_path());
   if (below->kind != Node::Kind::mapping) return below;  // its reader refuses it
   auto merged = copy_of(*laid_over(below, document));
   std::erase_if(merged->entries, [](const Node::Entry& entry) { return entry.key == "base"; });
@@ -78,6 +66,17 @@ NodePtr on_base(const NodePtr& document, const std::filesystem::path& file, std:
 
 NodePtr on_base(const NodePtr& document, const std::filesystem::path& file) {
   return on_base(document, file, 0);
+}
+
+NodePtr as_read_from(const NodePtr& document, const std::filesystem::path& steps) {
+  const NodePtr changed = with_path_from(document, "scene", steps);
+  const NodePtr controller =
+      changed->kind == Node::Kind::mapping ? find_entry(*changed, "controller") : nullptr;
+  if (!controller) return changed;
+  auto result = copy_of(*changed);
+  std::ranges::find(result->entries, "controller", &Node::Entry::key)->value =
+      with_path_from(with_path_from(controller, "scene", steps), "file", steps);
+  return result;
 }
 
 }  // namespace mixloop

@@ -13,4 +13,8 @@ namespace mixloop {
 /// "cyclic_definition" where a base leads back to itself.
 NodePtr on_base(const NodePtr& document, const std::filesystem::path& file);
 
+/// An experiment's document as it reads from a file in another folder: its scenes' and samples' paths count
+/// from there. `steps`: the way from that folder to its own.
+NodePtr as_read_from(const NodePtr& document, const std::filesystem::path& steps);
+
 }  // namespace mixloop

@@ -23,7 +23,8 @@ constexpr NamedMeasure kErrors[] = {{"max_position_error", &Measures::max_positi
                                     {"final_position_error", &Measures::final_position_error},
                                     {"rms_position_error", &Measures::rms_position_error}};
 
-constexpr const char *kFinal = "final_psi", *kDrift = "energy_drift";
+constexpr const char *kFinal = "final_psi", *kDrift = "energy_drift", *kMotorError = "max_motor_error",
+                     *kOrientation = "max_orientation_error";
 
 [[noreturn]] void refuse(const Place& place, const std::string& why) {
   throw InputError("out_of_range", place, why);
@@ -97,18 +98,44 @@ void read_error_bounds(const Mapping& entry, bool has_path, Expectation& expecta
   }
 }
 
-void read_torque_bounds(const NodePtr& torque, const Scene& scene, Expectation& expectation) {
-  const auto items = items_of(torque, "max_torque");
+/// A bound for each motor.
+void read_motor_bounds(const NodePtr& node, const std::string& name, const Quantity& quantity,
+                       const Scene& scene, Expectation& expectation) {
+  const auto items = items_of(node, name);
   if (items.size() != scene.motors().size())
-    throw InputError("wrong_size", torque->place,
-                     fmt::format("max_torque has {} values; expected {}", items.size(), scene.n_u()));
+    throw InputError("wrong_size", node->place,
+                     fmt::format("{} has {} values; expected {}", name, items.size(), scene.n_u()));
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto& motor = scene.motors()[i];
-    expectation.bounds.push_back({"max_torque", static_cast<int>(i), 0.0,
-                                  number_of(*items[i], kTorque.of(motor), "max_torque"),
-                                  torque_unit(motor.linear)});
+    expectation.bounds.push_back(
+        {name, static_cast<int>(i), 0.0, number_of(*items[i], quantity.of(motor), name),
+         name == kMotorError ? position_unit(motor.linear) : torque_unit(motor.linear)});
     check_bound(expectation.bounds.back(), *items[i]);
   }
+}
+
+void read_motor_error_bounds(const Mapping& entry, const Scene& scene, bool is_of_motors,
+                             Expectation& expectation) {
+  const NodePtr errors = entry.find(kMotorError);
+  if (!errors) return;
+  if (!is_of_motors)
+    refuse(errors->place,
+           "max_motor_error is of a path of the motors, and this experiment has none; expected "
+           "another bound");
+  read_motor_bounds(errors, kMotorError, kPosition, scene, expectation);
+}
+
+void read_orientation_bound(const Mapping& entry, const Scene& scene, bool has_path,
+                            Expectation& expectation) {
+  const NodePtr error = entry.find(kOrientation);
+  if (!error) return;
+  if (!has_path || !scene.end_effector.is_oriented())
+    refuse(error->place,
+           "nothing prescribes how the end effector is turned; expected end_effector.axes with rx, ry, rz "
+           "or its direction in the scene, or no max_orientation_error");
+  expectation.bounds.push_back(
+      {kOrientation, std::nullopt, 0.0, number_of(*error, kPure, kOrientation), "rad"});
+  check_bound(expectation.bounds.back(), *error);
 }
 
 /// Where the independent coordinates shall be at the end, each to its tolerance.
@@ -149,6 +176,8 @@ const Keys& expectation_keys() {
                          {{"max_position_error", form::numbers()},
                           {"final_position_error", form::numbers()},
                           {"rms_position_error", form::numbers()},
+                          {"max_orientation_error", form::number()},
+                          {"max_motor_error", form::numbers()},
                           {"max_torque", form::numbers()},
                           {"final", form::numbers()},
                           {"tolerance", form::numbers()},
@@ -161,6 +190,9 @@ const Keys& expectation_keys() {
 double Expectation::Bound::value_in(const Measures& measures) const {
   if (name == kFinal) return measures.final_psi ? (*measures.final_psi)[*motor] : kNeverMeasured;
   if (name == kDrift) return measures.energy_drift.value_or(kNeverMeasured);
+  if (name == kMotorError)
+    return measures.max_motor_error ? (*measures.max_motor_error)[*motor] : kNeverMeasured;
+  if (name == kOrientation) return measures.max_orientation_error;
   if (motor) return measures.max_torque[*motor];
   for (const auto& known : kErrors)
     if (name == known.name) return measures.*known.value;
@@ -172,11 +204,14 @@ bool Expectation::bounds_on(std::string_view name) const {
 }
 
 Expectation read_expectation(const NodePtr& node, const Scene& scene,
-                             std::optional<double> position_error_limit) {
+                             std::optional<double> position_error_limit, bool is_of_motors) {
   const Mapping entry = read_mapping(node, expectation_keys());
   Expectation expectation;
   read_error_bounds(entry, position_error_limit.has_value(), expectation);
-  if (const NodePtr torque = entry.find("max_torque")) read_torque_bounds(torque, scene, expectation);
+  read_orientation_bound(entry, scene, position_error_limit.has_value(), expectation);
+  if (const NodePtr torque = entry.find("max_torque"))
+    read_motor_bounds(torque, "max_torque", kTorque, scene, expectation);
+  read_motor_error_bounds(entry, scene, is_of_motors, expectation);
   read_final_bounds(entry, scene, expectation);
   read_drift_bound(entry, expectation);
   if (const NodePtr diverges = entry.find("diverges")) expectation.diverges = flag_of(*diverges, "diverges");

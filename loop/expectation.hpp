@@ -34,9 +34,10 @@ struct Expectation {
 /// Reads `{max_position_error: 13.3 mm, max_torque: [2, 5, 3], final: [0.1 rad], tolerance: 1e-6,
 /// energy_drift: 1e-9, diverges: true}`; a bound may be a pair [least, most] where a measure is a single
 /// number. Throws InputError, also for what no run can show whose position error stays below
-/// `position_error_limit` (m) until it has diverged; none: it has no path, and no position error.
+/// `position_error_limit` (m) until it has diverged; none: no end effector follows a path, and there is no
+/// position error. `is_of_motors`: its path is of the motors, whose errors are told.
 Expectation read_expectation(const NodePtr& node, const Scene& scene,
-                             std::optional<double> position_error_limit);
+                             std::optional<double> position_error_limit, bool is_of_motors = false);
 
 /// What was missed, a line each; empty where all is held.
 std::vector<std::string> missed(const Expectation& expectation, const Measures& measures);

@@ -78,10 +78,37 @@ double read_rate(const Node& node) {
   return rate;
 }
 
+/// A pair [least, most] for each motor.
+std::vector<std::array<double, 2>> read_ranges(const NodePtr& node, const Scene& scene) {
+  const auto pairs = items_of(node, "the position limits");
+  if (pairs.size() != scene.motors().size() || node->kind != Node::Kind::sequence)
+    throw InputError(
+        "wrong_size", node->place,
+        fmt::format("found {}; expected the position limits, a pair [least, most] for each of the {} motors",
+                    describe(*node), scene.n_u()));
+  std::vector<std::array<double, 2>> ranges;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& motor = scene.motors()[i];
+    const auto pair = numbers_of(pairs[i], kPosition.of(motor), 2, "the limits [least, most]");
+    if (!(pair[0] < pair[1]))
+      throw InputError(
+          "out_of_range", pairs[i]->place,
+          fmt::format("the motor {} is to stay between {:g} and {:g} {}; expected the lower one first",
+                      motor.name, pair[0], pair[1], position_unit(motor.linear)));
+    ranges.push_back({pair[0], pair[1]});
+  }
+  return ranges;
+}
+
 void read_limits(const NodePtr& node, Experiment& experiment) {
   const Mapping entry = read_mapping(node, limit_keys());
   if (!experiment.has_path()) return refuse_limits(entry);
-  if (const NodePtr limit = entry.find("position_error"))
+  const bool has_hand = experiment.scene->end_effector.named;
+  if (const NodePtr limit = entry.find("position_error"); limit && !has_hand)
+    throw InputError(
+        "out_of_range", limit->place,
+        "the scene names no end_effector, which limits.position_error is of; expected limits.motor_error");
+  else if (limit)
     experiment.position_error_limit = number_of(*limit, kLength, "the position error limit");
   if (!(experiment.position_error_limit > 0))
     throw InputError("out_of_range", entry.at("position_error")->place,
@@ -98,12 +125,20 @@ void read_limits(const NodePtr& node, Experiment& experiment) {
   };
   experiment.limits.velocity = positive("velocity", kVelocity, "the velocity limit");
   experiment.limits.torque = positive("torque", kTorque, "the torque limit");
+  if (const NodePtr limit = entry.find("motor_error"); limit && !experiment.path.is_of_motors())
+    throw InputError(
+        "out_of_range", limit->place,
+        "limits.motor_error is of a path of the motors, and this one is of the end effector; expected "
+        "limits.position_error");
+  experiment.limits.motor_error = positive("motor_error", kPosition, "the motor error limit");
+  if (const NodePtr limit = entry.find("position"))
+    experiment.limits.position = read_ranges(limit, *experiment.scene);
 }
 
 Expectation read_expectation_of(const Experiment& experiment, const NodePtr& node) {
   std::optional<double> limit;
-  if (experiment.has_path()) limit = experiment.position_error_limit;
-  Expectation expect = read_expectation(node, *experiment.scene, limit);
+  if (experiment.has_path() && experiment.scene->end_effector.named) limit = experiment.position_error_limit;
+  Expectation expect = read_expectation(node, *experiment.scene, limit, experiment.path.is_of_motors());
   if (const std::string why = other_work_in(experiment); expect.bounds_on("energy_drift") && !why.empty())
     throw InputError("out_of_range", find_entry(*node, "energy_drift")->place,
                      "energy and the motors' work don't balance: " + why +
@@ -148,6 +183,11 @@ void read_motion(const Mapping& root, Experiment& experiment) {
   experiment.path.place = duration->place;
 }
 
+/// What controls a scene without a motor.
+NodePtr nothing_to_control() {
+  return parse_document("{law: torque, torque: []}", "the controller of no motors");
+}
+
 void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
   PlantSettings& plant = experiment.plant;
   const NodePtr faults = root.find("faults");
@@ -169,9 +209,15 @@ void read_faults_and_seed(const Mapping& root, Experiment& experiment) {
 
 std::string text_of(const Path& path) {
   std::string text;
-  for (const auto& via : path.vias)
+  for (const auto& via : path.vias) {
     text += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
                         via.duration, via.dwell);
+    for (const double motor : via.motors) text += fmt::format("motor {:a};", motor);
+    if (!via.turns.isZero(0)) text += fmt::format("turns {:a};", fmt::join(via.turns, " "));
+    if (via.direction) text += fmt::format("direction {:a};", fmt::join(*via.direction, " "));
+  }
+  if (!path.held.empty()) text += fmt::format("hold {};", fmt::join(path.held, " "));
+  if (path.least_norm) text += "least norm;";
   return text + fmt::format("repeat {} approach {:a}", path.repeat, path.approach.value_or(0));
 }
 
@@ -182,9 +228,12 @@ NodePtr parameters_in(const NodePtr& section) {
 }  // namespace
 
 const Keys& limit_keys() {
-  static const Keys keys{
-      "the limits",
-      {{"position_error", form::number()}, {"velocity", form::numbers()}, {"torque", form::numbers()}}};
+  static const Keys keys{"the limits",
+                         {{"position_error", form::number()},
+                          {"motor_error", form::numbers()},
+                          {"position", form::list(form::numbers())},
+                          {"velocity", form::numbers()},
+                          {"torque", form::numbers()}}};
   return keys;
 }
 
@@ -195,7 +244,7 @@ const Keys& experiment_keys() {
                           {"rate", form::number()},
                           {"path", form::mapping(path_keys)},
                           {"duration", form::number()},
-                          {"controller", form::mapping(controller_keys), kRequired},
+                          {"controller", form::mapping(controller_keys)},
                           {"plant", form::mapping(plant_keys)},
                           {"real_time", form::mapping(real_time_keys)},
                           {"parameters", form::named(form::number())},
@@ -223,26 +272,46 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 
 Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file,
                            const std::vector<Override>& overrides) {
+  const NodePtr whole = experiment_document(document, file, overrides);
+  return read_experiment(whole, file, load_scenes(whole, file, overrides));
+}
+
+NodePtr experiment_document(const NodePtr& document, const std::filesystem::path& file,
+                            const std::vector<Override>& overrides) {
+  return overridden(on_base(document, file), overrides, false);
+}
+
+ExperimentScenes load_scenes(const NodePtr& document, const std::filesystem::path& file,
+                             const std::vector<Override>& overrides) {
+  const Mapping root = read_mapping(document, experiment_keys());
+  const auto base = file.parent_path();
+  ExperimentScenes scenes{.document = scene_document_at(*root.at("scene"), base, overrides)};
+  scenes.scene = scenes.controller_scene = std::make_shared<const Scene>(load_scene(scenes.document));
+  const NodePtr controller = root.find("controller");
+  if (const NodePtr other = controller ? find_entry(*controller, "scene") : nullptr) {
+    scenes.controller_scene = std::make_shared<const Scene>(load_scene(scene_document_at(*other, base, {})));
+    require_same_motors(*scenes.controller_scene, *scenes.scene, other->place);
+  }
+  return scenes;
+}
+
+Experiment read_experiment(const NodePtr& document, const std::filesystem::path& file,
+                           const ExperimentScenes& scenes) {
   Experiment experiment;
-  experiment.document = overridden(on_base(document, file), overrides, false);
-  const Mapping root = read_mapping(experiment.document, experiment_keys());
+  experiment.document = document;
+  const Mapping root = read_mapping(document, experiment_keys());
   experiment.file = file;
   experiment.name = printable_name(file.stem().string());
-  const auto base = file.parent_path();
-  experiment.scene_document = scene_document_at(*root.at("scene"), base, overrides);
-  experiment.scene = std::make_shared<const Scene>(load_scene(experiment.scene_document));
+  experiment.scene_document = scenes.document;
+  experiment.scene = scenes.scene;
+  experiment.controller_scene = scenes.controller_scene;
   const Scene& scene = *experiment.scene;
   if (const NodePtr rate = root.find("rate")) experiment.rate_hz = read_rate(*rate);
   read_motion(root, experiment);
 
-  const NodePtr controller = root.at("controller");
-  experiment.controller = read_controller_settings(controller, scene, base);
-  const NodePtr other_scene = find_entry(*controller, "scene");
-  experiment.controller_scene =
-      other_scene ? std::make_shared<const Scene>(load_scene(scene_document_at(*other_scene, base, {})))
-                  : experiment.scene;
-  if (other_scene) require_same_motors(*experiment.controller_scene, scene, other_scene->place);
-
+  const NodePtr controller =
+      scene.n_u() > 0 || root.has("controller") ? root.at("controller") : nothing_to_control();
+  experiment.controller = read_controller_settings(controller, scene, file.parent_path());
   const NodePtr plant = root.find("plant");
   if (plant) experiment.plant = read_plant_settings(plant, scene, experiment.rate_hz);
   if (const NodePtr real_time = root.find("real_time"))
@@ -257,9 +326,10 @@ Experiment load_experiment(const NodePtr& document, const std::filesystem::path&
         "control: held");
   experiment.parameters = parameter_values(scene, root.find("parameters"), scene.default_parameters());
   experiment.plant_parameters = parameter_values(scene, parameters_in(plant), experiment.parameters);
-  experiment.controller_parameters = parameter_values(
-      *experiment.controller_scene, parameters_in(controller),
-      other_scene ? experiment.controller_scene->default_parameters() : experiment.parameters);
+  experiment.controller_parameters = parameter_values(*experiment.controller_scene, parameters_in(controller),
+                                                      experiment.controller_scene != experiment.scene
+                                                          ? experiment.controller_scene->default_parameters()
+                                                          : experiment.parameters);
   require_inertia(experiment.scene, experiment.plant_parameters);
   read_faults_and_seed(root, experiment);
   if (const NodePtr limits = root.find("limits")) read_limits(limits, experiment);
@@ -279,10 +349,21 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   return read_scene(overridden_scene(read_document(file), overrides, false));
 }
 
+void require_faults_in_time(const Experiment& experiment, const Plan& plan) {
+  require_faults_in_time(experiment, plan.ticks());
+}
+
+std::shared_ptr<const Equations> equations_for(const Experiment& experiment,
+                                               const std::shared_ptr<const Scene>& scene,
+                                               const std::vector<Purpose>& purposes,
+                                               Equations::Options options) {
+  return shelved_equations(experiment.shelf.get(), scene, experiment.evaluation, purposes, options);
+}
+
 Plan make_plan(const Experiment& experiment) {
   if (!experiment.has_path()) {
     Plan plan = plan_without_path(experiment);
-    require_faults_in_time(experiment, plan.ticks());
+    require_faults_in_time(experiment, plan);
     return plan;
   }
   const auto model = make_model<double>(experiment.scene, std::span<const double>(experiment.parameters));
@@ -295,16 +376,15 @@ Plan make_plan(const Experiment& experiment) {
     if (!rows.uniform) settings.within = rows.at;
   }
   Plan plan(model, experiment.path, settings);
-  require_faults_in_time(experiment, plan.ticks());
+  require_faults_in_time(experiment, plan);
   return plan;
 }
 
 Controller make_controller(const Experiment& experiment) {
   const auto& scene = experiment.controller_scene;
-  const auto equations =
-      has_gains(experiment.controller.law)
-          ? equations_of(scene, experiment.evaluation, {Purpose::mass_times, Purpose::bias})
-          : equations_of(scene, experiment.evaluation, {});
+  const auto equations = has_gains(experiment.controller.law)
+                             ? equations_for(experiment, scene, {Purpose::mass_times, Purpose::bias})
+                             : equations_for(experiment, scene, {});
   return Controller({equations, experiment.controller_parameters}, experiment.controller,
                     seen_coordinates(experiment));
 }
@@ -334,8 +414,9 @@ Plant make_plant(const Experiment& experiment, const Plan& plan) {
   if (plan.has_path()) start.head(plan.n_u()) = plan.at(0).psi;
   PlantSettings settings = experiment.plant;
   settings.parameters = experiment.plant_parameters;
-  Equations::Workspace dynamics(plant_equations(experiment.scene, experiment.evaluation, settings),
-                                experiment.plant_parameters);
+  Equations::Workspace dynamics(
+      plant_equations(experiment.scene, experiment.evaluation, settings, experiment.shelf.get()),
+      experiment.plant_parameters);
   return Plant(std::move(dynamics), settings, experiment.rate_hz, span_of(std::as_const(start)),
                settings.initial_psid);
 }

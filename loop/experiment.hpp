@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "controller/guarded_controller.hpp"
+#include "dynamics/equations_shelf.hpp"
 #include "loop/expectation.hpp"
 #include "loop/integrator_choice.hpp"
 #include "planner/plan.hpp"
@@ -45,15 +46,37 @@ struct Experiment {
   PlanLimits limits;
   Expectation expect;
   Evaluation evaluation = Evaluation::machine_code;  ///< of the equations of motion, everywhere
+  /// From which those that share it have their equations; none: each makes its own.
+  std::shared_ptr<EquationsShelf> shelf;
 
   bool has_path() const { return !duration; }
 };
+
+/// Equations of one of its scenes, evaluated as it says.
+std::shared_ptr<const Equations> equations_for(const Experiment& experiment,
+                                               const std::shared_ptr<const Scene>& scene,
+                                               const std::vector<Purpose>& purposes,
+                                               Equations::Options options = {});
 
 /// Reads an experiment with overrides on top (`scene.` before an entry of the scene's own). Throws
 /// InputError.
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides);
 Experiment load_experiment(const NodePtr& document, const std::filesystem::path& file,
                            const std::vector<Override>& overrides);
+
+/// The scenes of an experiment, for all experiments that differ in other entries alone.
+struct ExperimentScenes {
+  NodePtr document;  ///< as read, overrides applied
+  std::shared_ptr<const Scene> scene, controller_scene;
+};
+
+/// load_experiment in its three parts: the document on its base, overrides applied; its scenes; the rest.
+NodePtr experiment_document(const NodePtr& document, const std::filesystem::path& file,
+                            const std::vector<Override>& overrides);
+ExperimentScenes load_scenes(const NodePtr& document, const std::filesystem::path& file,
+                             const std::vector<Override>& overrides);
+Experiment read_experiment(const NodePtr& document, const std::filesystem::path& file,
+                           const ExperimentScenes& scenes);
 
 /// A scene file with overrides of its entries; `parameters.NAME` sets a default.
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
@@ -65,6 +88,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
 /// or where a fault comes after its end. Without a path the motors' reference at every tick is where the
 /// plant starts, at rest, or what `state_feedback` feeds back about.
 Plan make_plan(const Experiment& experiment);
+/// The second of these, for a plan that was made for another experiment.
+void require_faults_in_time(const Experiment& experiment, const Plan& plan);
 Controller make_controller(const Experiment& experiment);
 GuardedController make_guarded_controller(const Experiment& experiment);
 Plant make_plant(const Experiment& experiment, const Plan& plan);

@@ -9,8 +9,8 @@ namespace mixloop {
 
 namespace {
 
-const Experiment& checked(const Experiment& experiment, const Plan& plan) {
-  require_room(experiment, plan);
+const Experiment& checked(const Experiment& experiment, const Plan& plan, const RecorderSettings& settings) {
+  if (settings.keeps_ticks) require_room(experiment, plan);
   return experiment;
 }
 
@@ -54,11 +54,11 @@ std::string require_room(const Experiment& experiment, const Plan& plan) {
                      RecordRows::folder());
 }
 
-RecordedPlant::RecordedPlant(const Experiment& experiment, const Plan& plan)
-    : experiment_(checked(experiment, plan)),
+RecordedPlant::RecordedPlant(const Experiment& experiment, const Plan& plan, const RecorderSettings& settings)
+    : experiment_(checked(experiment, plan, settings)),
       plan_(plan),
       hardware_(make_deadline_plant(experiment, plan)),
-      recorder_(experiment, plan),
+      recorder_(experiment, plan, settings),
       psi_(static_cast<Eigen::Index>(plant().measured().size())),
       psid_(psi_.size()) {}
 

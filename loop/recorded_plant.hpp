@@ -24,8 +24,8 @@ std::string require_room(const Experiment& experiment, const Plan& plan);
 /// once tick k is recorded. Nothing allocates after construction.
 class RecordedPlant {
  public:
-  /// What is passed must outlive it. Throws what require_room throws.
-  RecordedPlant(const Experiment& experiment, const Plan& plan);
+  /// What is passed must outlive it. Throws what require_room throws, where ticks are kept.
+  RecordedPlant(const Experiment& experiment, const Plan& plan, const RecorderSettings& settings = {});
 
   const Experiment& experiment() const { return experiment_; }
   const Plan& plan() const { return plan_; }

@@ -19,6 +19,11 @@ std::size_t loop_numbers(const Experiment& experiment) {
   return 1 + 2 * (declared.started.size() + declared.independent.size());
 }
 
+/// `!(a <= b)` holds also where b was never measured.
+void raise(double& most, double value) {
+  if (!(value <= most)) most = value;
+}
+
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
@@ -31,9 +36,9 @@ std::size_t Recorder::bytes_a_tick(const Experiment& experiment) {
          (2 * scene.independent.size() + 2 * scene.motors().size() + 1 + loop_numbers(experiment));
 }
 
-Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_work)
+Recorder::Recorder(const Experiment& experiment, const Plan& plan, const RecorderSettings& settings)
     : plan_(plan),
-      kinematics_(equations_of(experiment.scene, experiment.evaluation, {Purpose::end_effector}),
+      kinematics_(equations_for(experiment, experiment.scene, {Purpose::end_effector}),
                   experiment.plant_parameters),
       axes_(experiment.scene->end_effector.axes),
       n_(experiment.scene->independent.size()),
@@ -41,22 +46,32 @@ Recorder::Recorder(const Experiment& experiment, const Plan& plan, bool knows_wo
       loops_(loop_numbers(experiment)),
       rate_hz_(experiment.rate_hz),
       limit_(experiment.position_error_limit),
-      rows_(static_cast<std::size_t>(plan.ticks() + 3) * width(), free_memory()),
+      kept_(settings.keeps_ticks ? plan.ticks() + 1 : 0),
+      rows_(static_cast<std::size_t>(kept_ + 2) * width(), settings.keeps_ticks ? free_memory() : HUGE_VAL),
       conditions_{-1, 1},
       zero_(n_, 0.0),
-      hand_(kinematics_.outputs(Purpose::end_effector)) {
-  measures_.follows_path = plan.has_path();
+      hand_(kinematics_.outputs(Purpose::end_effector)),
+      settled_within_(settings.settled_within) {
+  const auto& end_effector = experiment.scene->end_effector;
+  measures_.follows_path = plan.has_path() && end_effector.named;
+  measures_.is_oriented = measures_.follows_path && end_effector.is_oriented();
+  if (measures_.is_oriented) orientation_.emplace(experiment.scene, experiment.plant_parameters);
+  if (experiment.path.is_of_motors()) {
+    motor_error_ = Vector::Zero(experiment.scene->n_u());
+    motor_error_limit_ = experiment.limits.motor_error;
+    measures_.max_motor_error = Vector::Constant(experiment.scene->n_u(), kNeverMeasured);
+  }
   measures_.max_torque = Vector::Constant(experiment.scene->n_u(), kNeverMeasured);
-  tells_final_ = !plan.has_path() || experiment.expect.bounds_on("final_psi");
+  tells_final_ = !measures_.follows_path || experiment.expect.bounds_on("final_psi");
   const bool tells_energy = !plan.has_path() || experiment.expect.bounds_on("energy_drift");
   if (tells_energy && other_work_in(experiment).empty()) {
     measures_.energy_drift = kNeverMeasured;
-    if (knows_work && loops_ > 0)
+    if (settings.knows_work && loops_ > 0)
       switched_energy_.emplace(experiment.plant.partitions, told_by(experiment),
                                std::initializer_list<Purpose>{Purpose::energy}, Equations::Options{},
                                experiment.plant_parameters);
-    else if (knows_work)
-      energy_.emplace(equations_of(experiment.scene, experiment.evaluation, {Purpose::energy}),
+    else if (settings.knows_work)
+      energy_.emplace(equations_for(experiment, experiment.scene, {Purpose::energy}),
                       experiment.plant_parameters);
     if (switched_energy_) hand_loops_ = switched_energy_->motion();
   }
@@ -88,9 +103,23 @@ Recorder::Conditions Recorder::conditions(std::int64_t k) const {
           conditions_[at + 1]};
 }
 
+/// Of a path of the motors, how far each is from its reference: whether that is past its limit.
+bool Recorder::motors_are_off(std::int64_t k, std::span<const double> psi) {
+  if (!measures_.max_motor_error) return false;
+  const Reference reference = plan_.at(k);
+  bool off = false;
+  for (Eigen::Index i = 0; i < motor_error_.size(); ++i) {
+    const auto motor = static_cast<std::size_t>(i);
+    motor_error_[i] = std::abs(psi[motor] - reference.psi[i]);
+    off = off || (!motor_error_limit_.empty() && !(motor_error_[i] <= motor_error_limit_[motor]));
+  }
+  return off && judged(k);
+}
+
 bool Recorder::state(std::int64_t k, std::span<const double> psi, std::span<const double> psid, double work) {
   if (!all_finite(psi) || !all_finite(psid) || !std::isfinite(work)) return diverged(k);
-  if (plan_.has_path()) {
+  if (motors_are_off(k, psi)) return diverged(k);
+  if (measures_.follows_path) {
     kinematics_.evaluate(Purpose::end_effector, {psi, psid, zero_, time(k)}, hand_);
     error_ =
         mixloop::position_error(Eigen::Map<const Eigen::Vector3d>(hand_.data()), plan_.at(k).position, axes_);
@@ -144,19 +173,28 @@ bool Recorder::command(std::int64_t k, std::span<const double> tau, std::span<co
   return true;
 }
 
-/// `!(a <= b)` holds also where b was never measured.
 void Recorder::measure(std::int64_t k, std::span<const double> tau) {
-  for (std::size_t i = 0; i < tau.size(); ++i) {
-    double& most = measures_.max_torque[static_cast<Eigen::Index>(i)];
-    if (!(std::abs(tau[i]) <= most)) most = std::abs(tau[i]);
-  }
+  for (std::size_t i = 0; i < tau.size(); ++i)
+    raise(measures_.max_torque[static_cast<Eigen::Index>(i)], std::abs(tau[i]));
   if (energy_ || switched_energy_) measure_energy(k);
-  if (!plan_.has_path() || k < plan_.start_tick()) return;
+  if (plan_.has_path() && k >= plan_.start_tick()) measure_path(k);
+}
+
+void Recorder::measure_path(std::int64_t k) {
+  for (Eigen::Index i = 0; i < motor_error_.size(); ++i)
+    raise((*measures_.max_motor_error)[i], motor_error_[i]);
+  if (orientation_)
+    raise(measures_.max_orientation_error, orientation_->at(psi(k), span_of(plan_.at(k).psi), time(k)));
+  if (!measures_.follows_path) return;
   if (!(error_ <= measures_.max_position_error)) {
     measures_.max_position_error = error_;
     measures_.time_of_max_position_error = time(k);
   }
   measures_.final_position_error = error_;
+  if (settled_within_ && !(error_ <= *settled_within_))
+    measures_.settled_at = kNeverMeasured;
+  else if (settled_within_ && !(measures_.settled_at <= time(k)))
+    measures_.settled_at = time(k);
   sum_of_squares_ += error_ * error_;
   ++errors_;
 }
@@ -204,6 +242,7 @@ Measures Recorder::measures() const {
   result.ticks = std::max<std::int64_t>(recorded_ - 1, 0);
   result.final_psi = final_psi();
   if (errors_ > 0) result.rms_position_error = std::sqrt(sum_of_squares_ / static_cast<double>(errors_));
+  if (recorded_ > kept_) return result;
   Sha256 hash;
   for (std::int64_t k = 0; k < recorded_; ++k) {
     const double t = time(k);

@@ -8,6 +8,7 @@
 
 #include "loop/experiment.hpp"
 #include "loop/measures.hpp"
+#include "loop/orientation_error.hpp"
 #include "loop/record_rows.hpp"
 #include "notation/sha256.hpp"
 
@@ -19,11 +20,17 @@ inline Evaluation told_by(const Experiment& experiment) {
   return std::min(experiment.evaluation, Evaluation::interpreter);
 }
 
+/// What a recorder does beside judging a run.
+struct RecorderSettings {
+  bool knows_work = true;                     ///< the motors' work is told; else there is no energy drift
+  bool keeps_ticks = true;                    ///< else the last two alone, and there is no trajectory_sha256
+  std::optional<double> settled_within = {};  ///< m: it tells from when on the position error is so small
+};
+
 /// Keeps a run, tick by tick, and judges it. Nothing allocates after construction.
 class Recorder {
  public:
-  /// `knows_work`: the motors' work is told; else there is no energy drift.
-  Recorder(const Experiment& experiment, const Plan& plan, bool knows_work = true);
+  Recorder(const Experiment& experiment, const Plan& plan, const RecorderSettings& settings = {});
 
   /// What the record takes, all its ticks alike.
   static std::size_t bytes_a_tick(const Experiment& experiment);
@@ -75,14 +82,16 @@ class Recorder {
 
  private:
   const double* row(std::int64_t k) const {
-    const std::int64_t slot = k <= plan_.ticks() ? k : plan_.ticks() + 1 + k % 2;
+    const std::int64_t slot = k < kept_ ? k : kept_ + k % 2;
     return rows_.data() + static_cast<std::size_t>(slot) * width();
   }
   double* row(std::int64_t k) { return const_cast<double*>(std::as_const(*this).row(k)); }
   std::size_t width() const { return 2 * n_ + 2 * n_u_ + 1 + loops_; }
   bool judged(std::int64_t k) const { return k < safe_from_; }
   void measure(std::int64_t k, std::span<const double> tau);
+  void measure_path(std::int64_t k);
   void measure_energy(std::int64_t k);
+  bool motors_are_off(std::int64_t k, std::span<const double> psi);
   std::optional<Vector> final_psi() const;
   bool diverged(std::int64_t k);
 
@@ -92,20 +101,25 @@ class Recorder {
   std::size_t n_, n_u_;
   std::size_t loops_;  ///< numbers of a LoopMotion; 0 where no coordinates are switched
   double rate_hz_, limit_;
-  RecordRows rows_;  ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work, loops
+  std::int64_t kept_;  ///< ticks; of those past them the last two
+  RecordRows rows_;    ///< of each tick: psi, psid (n each), commanded, applied (n_u each), work, loops
   /// Changes kept of injected faults; past them the latest one stands for those before it.
   static constexpr std::size_t kInjectedKept = 1000;
   std::size_t row_of_conditions_ = 0;
   std::vector<double> conditions_;  ///< rows of tick, friction, parameters: as it began, then each change
   std::vector<double> zero_, hand_;
-  std::optional<Equations::Workspace> energy_;  ///< none: it isn't measured
-  std::optional<Partitions> switched_energy_;   ///< where coordinates are switched
+  std::optional<OrientationError> orientation_;  ///< none: nothing is prescribed
+  std::vector<double> motor_error_limit_;        ///< of a path of the motors; empty: none
+  Vector motor_error_;                           ///< n_u, of a path of the motors
+  std::optional<Equations::Workspace> energy_;   ///< none: it isn't measured
+  std::optional<Partitions> switched_energy_;    ///< where coordinates are switched
   LoopMotion hand_loops_;
   double first_energy_ = 0, largest_energy_ = 0, largest_imbalance_ = 0;  ///< J
   bool energy_begun_ = false, energy_changed_ = false;                    ///< changed: by a fault
   bool tells_final_ = false;
   std::int64_t recorded_ = 0;
   std::int64_t safe_from_ = std::numeric_limits<std::int64_t>::max();
+  std::optional<double> settled_within_;
   double error_ = 0, sum_of_squares_ = 0;
   std::int64_t errors_ = 0;
   Measures measures_;

@@ -90,6 +90,18 @@ struct BusFigures {
   bool joined_late = false;
 };
 
+/// What many runs of an experiment came to.
+struct SweepFigures {
+  struct Figure {
+    std::string name;  ///< e.g. "max_position_error p99.9"
+    std::string unit;
+    double value = kNeverMeasured;
+  };
+  std::int64_t runs = 0, done = 0;
+  double wall_time = 0;  ///< s
+  std::vector<Figure> figures;
+};
+
 /// What a command has to tell of an experiment.
 struct Result {
   struct Error {
@@ -106,6 +118,7 @@ struct Result {
   std::optional<RunFigures>
       run;  ///< none: it failed before, or the plant was a stranger's, which told nothing
   std::optional<BusFigures> bus;
+  std::optional<SweepFigures> sweep;  ///< in place of a run
   std::optional<std::int64_t> session;
   std::optional<std::int64_t> missing_ticks;  ///< of a run that was listened to
   std::optional<Log> log;

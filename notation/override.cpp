@@ -5,6 +5,7 @@
 #include <span>
 
 #include "notation/document.hpp"
+#include "notation/document_path.hpp"
 #include "notation/utf8.hpp"
 
 namespace mixloop {
@@ -12,20 +13,13 @@ namespace {
 
 constexpr std::size_t kMostSteps = 32;
 
-/// One step of a path: a key, or an index into a list.
-struct Step {
-  std::string key;
-  std::size_t index = 0;
-  bool is_index = false;
-};
-
 /// Reads `key`, `.key` and `[index]`, one after the other.
 class PathReader {
  public:
   PathReader(std::string_view path, const Place& place) : path_(path), place_(place) {}
 
-  std::vector<Step> steps() {
-    std::vector<Step> steps = {key()};
+  std::vector<PathStep> steps() {
+    std::vector<PathStep> steps = {key()};
     while (at_ < path_.size()) {
       if (steps.size() == kMostSteps) fail(fmt::format("more than {} steps", kMostSteps));
       ++at_;  // a dot or a bracket: key() stops at nothing else, and after an index only they may stand
@@ -39,16 +33,16 @@ class PathReader {
     throw InputError("invalid_path", place_, message + " in " + in_quotes(path_));
   }
 
-  Step key() {
+  PathStep key() {
     const std::size_t end = std::min(path_.find_first_of(".[", at_), path_.size());
     if (end == at_) fail("an empty name");
-    Step step{std::string(path_.substr(at_, end - at_))};
+    PathStep step{std::string(path_.substr(at_, end - at_))};
     at_ = end;
     return step;
   }
 
-  Step index() {
-    Step step{"", 0, true};
+  PathStep index() {
+    PathStep step{"", 0, true};
     const char* const last = path_.data() + path_.size();
     const auto [end, error] = std::from_chars(path_.data() + at_, last, step.index);
     if (error != std::errc() || end == last || *end != ']') fail("expected an index such as [0]");
@@ -64,9 +58,10 @@ class PathReader {
 };
 
 /// A copy of `node` along the path, all else shared: an alias's other uses keep their value.
-NodePtr replaced(const NodePtr& node, std::span<const Step> steps, const NodePtr& value, const Place& place) {
+NodePtr replaced(const NodePtr& node, std::span<const PathStep> steps, const NodePtr& value,
+                 const Place& place) {
   if (steps.empty()) return value;
-  const Step& step = steps.front();
+  const PathStep& step = steps.front();
   auto copy = node ? std::make_shared<Node>(*node) : std::make_shared<Node>();
   if (step.is_index) {
     if (copy->kind != Node::Kind::sequence || step.index >= copy->items.size())
@@ -90,11 +85,15 @@ NodePtr replaced(const NodePtr& node, std::span<const Step> steps, const NodePtr
 
 }  // namespace
 
+std::vector<PathStep> path_steps(std::string_view path, const Place& place) {
+  return PathReader(path, place).steps();
+}
+
 NodePtr override_entry(const NodePtr& document, std::string_view path, std::string_view value) {
   const bool is_text = !first_non_text(path);
   const Place place{is_text ? "--set " + std::string(path) : "--set"};
   if (!is_text) throw InputError("not_text", place, "a path with a control character or invalid UTF-8");
-  const auto steps = PathReader(path, place).steps();
+  const auto steps = path_steps(path, place);
   return replaced(document, steps, parse_document(value, place.file), place);
 }
 

@@ -6,13 +6,13 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <unordered_map>
 
 #include "notation/document.hpp"
 #include "notation/look_alikes.hpp"
+#include "notation/text_file.hpp"
 #include "notation/utf8.hpp"
 
 namespace mixloop {
@@ -217,23 +217,6 @@ class TreeBuilder final : public YAML::EventHandler {
   NodePtr root_;
 };
 
-void refuse_large(std::size_t size, const std::string& file) {
-  if (size > kLargestText)
-    throw InputError("too_large", {file},
-                     fmt::format("larger than {} bytes; expected a scene or an experiment", kLargestText));
-}
-
-void refuse_binary(std::string_view text, const std::string& file) {
-  const auto at = first_non_text(text);
-  if (!at) return;
-  const std::string_view before = text.substr(0, *at);
-  const auto line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-  const int line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
-  throw InputError("not_text", {file, line, static_cast<int>(*at - line_start) + 1},
-                   fmt::format("found the byte 0x{:02x}; expected text, YAML in UTF-8",
-                               static_cast<unsigned char>(text[*at])));
-}
-
 /// The line of that number, from 0.
 std::string_view line_of(std::string_view text, int number) {
   for (; number > 0 && !text.empty(); --number)
@@ -244,8 +227,7 @@ std::string_view line_of(std::string_view text, int number) {
 }  // namespace
 
 NodePtr parse_document(std::string_view text, const std::string& file) {
-  refuse_large(text.size(), file);
-  refuse_binary(text, file);
+  require_text(text, kLargestText, "a scene or an experiment, YAML", file);
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::istringstream stream{std::string(text)};
@@ -272,17 +254,7 @@ NodePtr parse_document(std::string_view text, const std::string& file) {
 }
 
 NodePtr read_document(const std::filesystem::path& path) {
-  std::error_code failure;
-  if (!std::filesystem::exists(path, failure))
-    throw InputError("no_such_file", {path.string()}, "no such file");
-  if (std::filesystem::is_directory(path, failure))
-    throw InputError("no_such_file", {path.string()}, "found a directory; expected a file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError("no_such_file", {path.string()}, "cannot be read");
-  std::string text(kLargestText + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse_document(text, path.string());
+  return parse_document(read_file(path, kLargestText + 1), path.string());
 }
 
 }  // namespace mixloop

@@ -9,9 +9,13 @@ namespace mixloop {
 /// The motors along an itinerary, step by step, each solution the continuation of the one before.
 class Follower {
  public:
-  /// `delay`: plant time at which the path starts, in steps. Refers to both.
+  /// Along a path of the end effector. `delay`: plant time at which the path starts, in steps. Refers to
+  /// both.
   Follower(InverseKinematics& ik, const Itinerary& itinerary, std::int64_t delay)
-      : ik_(ik), itinerary_(itinerary), delay_(static_cast<double>(delay)) {}
+      : ik_(&ik), itinerary_(itinerary), delay_(static_cast<double>(delay)) {}
+  /// Along one of the motors.
+  Follower(HandKinematics& hand, const Itinerary& itinerary, std::int64_t delay)
+      : hand_(&hand), itinerary_(itinerary), delay_(static_cast<double>(delay)) {}
 
   /// A place on the path and the motors' motion there.
   struct Motion {
@@ -34,10 +38,13 @@ class Follower {
   double limit(double failed);
 
  private:
+  IkOutcome follow_motors(double step);
   IkOutcome try_advance(double step, int halvings);
+  Vector expected(double step);
   IkOutcome complete(double step, const PathPoint& desired, Vector psi);
 
-  InverseKinematics& ik_;
+  InverseKinematics* ik_ = nullptr;  ///< one of the two
+  HandKinematics* hand_ = nullptr;
   const Itinerary& itinerary_;
   double delay_;
   Motion now_;

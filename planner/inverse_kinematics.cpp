@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "notation/long_work.hpp"
-
 namespace mixloop {
 namespace {
 
@@ -17,40 +15,85 @@ constexpr int kStartsFromHome = 400;
 constexpr double kFarthestStart = 4;  // in motor scales: about a half turn of a joint and more
 
 constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
-constexpr double kNothing = 1e3 * kRoundOff;  // of what a sum consists of: a sum of nothing
-constexpr double kStraight = 1e-3;            // of a way: how far the end effector may be off it
+constexpr double kStraight = 1e-3;  // of a way: how far the end effector may be off it
 
-/// Of the transforms from the ground to the end effector, and the point in its frame; 0 where all of it
-/// varies.
-double length_of_chain(const Model<double>& model) {
-  double length = model.end_effector_point.norm();
-  for (int frame = model.scene->end_effector.frame; frame != 0;) {
-    const auto& link = model.links[static_cast<std::size_t>(frame - 1)];
-    length += std::abs(link.a) + std::abs(link.s);
-    frame = link.parent;
+/// A system of up to three equations, filled up by x_i = 0 to three, which Eigen unrolls.
+bool is_small(const Matrix& A) { return A.rows() == A.cols() && A.rows() <= 3; }
+Eigen::Matrix3d filled(const Matrix& A) {
+  Eigen::Matrix3d three = Eigen::Matrix3d::Identity();
+  three.topLeftCorner(A.rows(), A.cols()) = A;
+  return three;
+}
+Eigen::Vector3d filled(const Vector& x, double rest) {
+  Eigen::Vector3d three = Eigen::Vector3d::Constant(rest);
+  three.head(x.size()) = x;
+  return three;
+}
+
+class SquareSolution {
+ public:
+  explicit SquareSolution(const Matrix& A) : size_(A.rows()) {
+    if (is_small(A))
+      small_.compute(filled(A));
+    else
+      large_.compute(A);
   }
-  return length;
-}
+  Vector solve(const Vector& b) const {
+    if (size_ > 3) return large_.solve(b);
+    const Eigen::Vector3d x = small_.solve(filled(b, 0));
+    return x.head(size_);
+  }
 
-/// The first n of three.
-Vector first_of(const Eigen::Vector3d& x, int n) {
-  Vector first(n);
-  for (int i = 0; i < n; ++i) first[i] = x[i];
-  return first;
-}
+ private:
+  Eigen::Index size_;
+  Eigen::PartialPivLU<Eigen::Matrix3d> small_;
+  Eigen::PartialPivLU<Matrix> large_;
+};
+
+/// The x with J x = b: of a square J by its LU; of a wide one the least x in units of `scale`.
+class LeastSolution {
+ public:
+  LeastSolution(const Matrix& J, const Vector& scale)
+      : J_(J),
+        weighted_(scale.cwiseAbs2().asDiagonal() * J.transpose()),
+        square_(is_square() ? J : Matrix(J * weighted_)) {}
+
+  bool is_square() const { return J_.rows() == J_.cols(); }
+  Vector solve(const Vector& b) const {
+    return is_square() ? square_.solve(b) : Vector(weighted_ * square_.solve(b));
+  }
+  /// Of a wide J: with x = scale^2 J^T lambda.
+  Vector multipliers(const Vector& b) const { return square_.solve(b); }
+  /// Of a wide J: what a change of J^T lambda by `turned` changes of x, J x unchanged.
+  Vector across(const Vector& turned, const Vector& scale) const {
+    const Vector x = scale.cwiseAbs2().cwiseProduct(turned);
+    return x - solve(J_ * x);
+  }
+
+ private:
+  Matrix J_, weighted_;
+  SquareSolution square_;
+};
 
 /// Marquardt's step (J^T J + damping diag(J^T J)) x = J^T error (SIAM J. 11, 1963), worked out in units of
-/// `scale`; undamped, Newton's. Of three equations the first `scale.size()` count.
-Eigen::Vector3d damped_step(const Eigen::Matrix3d& J, const Eigen::Vector3d& error, double damping,
-                            const Vector& scale) {
-  if (damping == 0) return J.partialPivLu().solve(error);
-  Eigen::Vector3d unit = Eigen::Vector3d::Ones();
-  unit.head(scale.size()) = scale;
-  const Eigen::Matrix3d scaled = J * unit.asDiagonal();
-  Eigen::Matrix3d A = scaled.transpose() * scaled;
-  const double least = 1e-12 * A.diagonal().head(scale.size()).maxCoeff();
-  for (int i = 0; i < 3; ++i) A(i, i) += damping * std::max(A(i, i), least);
-  return unit.cwiseProduct(A.partialPivLu().solve(scaled.transpose() * error));
+/// `scale`. Of the unknowns the first `count` are some.
+template <class Square, class Column>
+Column marquardt_step(const Square& J, const Column& error, double damping, const Column& scale,
+                      Eigen::Index count) {
+  const Square scaled = J * scale.asDiagonal();
+  Square A = scaled.transpose() * scaled;
+  const double least = 1e-12 * A.diagonal().head(count).maxCoeff();
+  for (Eigen::Index i = 0; i < A.rows(); ++i) A(i, i) += damping * std::max(A(i, i), least);
+  return scale.cwiseProduct(A.partialPivLu().solve(scaled.transpose() * error));
+}
+
+/// Marquardt's step; undamped, Newton's.
+Vector damped_step(const Matrix& J, const Vector& error, double damping, const Vector& scale) {
+  if (damping == 0) return LeastSolution(J, scale).solve(error);
+  if (!is_small(J)) return marquardt_step<Matrix, Vector>(J, error, damping, scale, scale.size());
+  return marquardt_step<Eigen::Matrix3d, Eigen::Vector3d>(filled(J), filled(error, 0), damping,
+                                                          filled(scale, 1), scale.size())
+      .head(scale.size());
 }
 
 /// The angle that differs from `angle` by whole turns and is nearest to `other`.
@@ -59,57 +102,46 @@ double unwrapped(double angle, double other) {
   return angle + turn * std::round((other - angle) / turn);
 }
 
-}  // namespace
-
-InverseKinematics::InverseKinematics(const Model<double>& model, Method method)
-    : model_(model),
-      n_u_(model.n_u()),
-      ws_(model),
-      home_(Eigen::Map<const Vector>(model.scene->home.data(), n_u_)),
-      zero_(Vector::Zero(n_u_)),
-      scale_(length_of_chain(model)) {
-  const std::size_t axes = model.scene->end_effector.axes.size();
-  if (axes != static_cast<std::size_t>(n_u_))
-    throw InputError("no_inverse", {model.scene->transforms.front().place.file},
-                     fmt::format("the scene '{}' has {} motors for {} axes of its end effector; a path needs "
-                                 "as many motors as axes",
-                                 model.scene->name, n_u_, axes));
-  if (method == Method::closed_form_if_known) arm_ = find_three_axis_arm(model);
-  const Vector moved = moved_at_home();
-  if (!(scale_ > 0)) scale_ = moved.maxCoeff() > 0 ? moved.maxCoeff() : 1;
-  motor_scale_ = Vector(n_u_);
-  for (int i = 0; i < n_u_; ++i) {
-    const bool linear = model.scene->motors()[static_cast<std::size_t>(i)].linear;
-    motor_scale_[i] = moved[i] > 0 ? scale_ / moved[i] : (linear ? scale_ : 1);
-  }
+void require_enough(const Scene& scene, const Prescription& prescription,
+                    const InverseKinematics::Redundancy& redundancy) {
+  const Eigen::Index rows = prescription.rows(), active = prescription.active();
+  if (active == rows || (active > rows && redundancy.least_norm)) return;
+  std::string motors = fmt::format("{} motor{}", scene.n_u(), scene.n_u() == 1 ? "" : "s");
+  if (!redundancy.held.empty()) motors += fmt::format(", {} of them held", redundancy.held.size());
+  const std::string what = fmt::format("the path prescribes {}, and the scene '{}' has {}",
+                                       prescription.text(), scene.name, motors);
+  const Place place{scene.transforms.front().place.file};
+  if (active < rows)
+    throw InputError(
+        "no_inverse", place,
+        fmt::format("{}: too few, by {}; expected as many motors as numbers: fewer end_effector axes, "
+                    "or a path of the motors",
+                    what, rows - active));
+  throw InputError(
+      "no_inverse", place,
+      fmt::format("{}: {} more than it says how to move; expected `hold: [...]` with {} in the path, "
+                  "or `redundancy: least_norm`, or more end_effector axes",
+                  what, active - rows, active - rows == 1 ? "a motor" : "so many"));
 }
 
-// A column of the Jacobian is nothing where it is the rounding of the joints' shares that it is summed up
-// from: so however fine a drive is, and whatever its units.
-Vector InverseKinematics::moved_at_home() {
-  const Scene& scene = *model_.scene;
-  const Eigen::Matrix3d J = jacobian_of(forward(home_, zero_, zero_, 0));
-  const PsiMotion home = with_free_at_home(scene, {home_, {}, {}});
-  coordinates<double>(model_, span_of(home.psi), 0.0, ws_);
-  Vector moved(n_u_), shares = Vector::Zero(n_u_);
-  for (int frame = scene.end_effector.frame; frame != 0;) {
-    const auto& link = model_.links[static_cast<std::size_t>(frame - 1)];
-    frame = link.parent;
-    if (link.coordinate < 0) continue;
-    const double arm = std::abs(link.scale) * (link.prismatic ? 1 : scale_);
-    shares += arm * ws_.C.row(link.coordinate).head(n_u_).cwiseAbs().transpose();
-  }
-  for (int i = 0; i < n_u_; ++i) {
-    moved[i] = J.col(i).head(n_u_).norm();
-    if (!(moved[i] > kNothing * shares[i])) moved[i] = 0;
-  }
-  return moved;
+}  // namespace
+
+InverseKinematics::InverseKinematics(const Model<double>& model, Method method, const Redundancy& redundancy)
+    : hand_(model), prescription_(hand_, redundancy.held) {
+  require_enough(*model.scene, prescription_, redundancy);
+  const bool may_be_arm = redundancy.held.empty() && !model.scene->end_effector.is_oriented();
+  if (method == Method::closed_form_if_known && may_be_arm) arm_ = find_three_axis_arm(model);
 }
 
 // By the motors' angles at home: what a search winds up beyond them resolves nothing.
-double InverseKinematics::resolution(const Eigen::Vector3d& point) const {
+double InverseKinematics::resolution(const PathPoint& point) const {
+  double squared = 0;
+  for (const int axis : hand_.model().scene->end_effector.axes)
+    squared += point.position[axis] * point.position[axis];
+  const double turned = hand_.model().scene->end_effector.is_oriented() ? hand_.scale() : 0;
   return 4 * kRoundOff *
-         (on_axes(point).norm() + scale_ * home_.cwiseQuotient(motor_scale_).cwiseAbs().sum());
+         (std::sqrt(squared) + turned +
+          hand_.scale() * hand_.home().cwiseQuotient(hand_.motor_scale()).cwiseAbs().sum());
 }
 
 IkOutcome InverseKinematics::closed_form(const Eigen::Vector3d& point, Vector& psi) const {
@@ -135,89 +167,68 @@ IkOutcome InverseKinematics::closed_form_rates(const PathPoint& point, Vector& p
   return psid.allFinite() && psidd.allFinite() ? IkOutcome::solved : IkOutcome::singular;
 }
 
-Eigen::Vector3d InverseKinematics::on_axes(const Eigen::Vector3d& x) const {
-  Eigen::Vector3d values = Eigen::Vector3d::Zero();
-  Eigen::Index i = 0;
-  for (const int axis : model_.scene->end_effector.axes) values[i++] = x[axis];
-  return values;
-}
-
-Eigen::Matrix3d InverseKinematics::jacobian_of(const EndEffectorState<double>& state) const {
-  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
-  Eigen::Index i = 0;
-  for (const int axis : model_.scene->end_effector.axes)
-    J.row(i++).head(n_u_) = state.jacobian.row(axis).head(n_u_);
-  return J;
-}
-
-const EndEffectorState<double>& InverseKinematics::forward(const Vector& psi, const Vector& psid,
-                                                           const Vector& psidd, double t) {
-  work_goes_on();  // of a large scene one takes long, and refusals take thousands
-  const PsiMotion all = with_free_at_home(*model_.scene, {psi, psid, psidd});
-  return end_effector<double>(model_, span_of(all.psi), span_of(all.psid), span_of(all.psidd), t, ws_);
-}
-
-double InverseKinematics::miss(const Eigen::Vector3d& point, double t, const Vector& psi) {
-  return on_axes(point - forward(psi, zero_, zero_, t).position).norm();
-}
-
 // A fine drive and a long slide have far to go, and where the end effector follows the step all along,
 // nothing winds up.
-bool InverseKinematics::leads_straight(const Eigen::Vector3d& point, double t, const Vector& psi,
-                                       const Vector& step, const Eigen::Vector3d& error) {
+bool InverseKinematics::leads_straight(const PathPoint& point, double t, const Vector& psi,
+                                       const Vector& step, const Vector& error) {
   for (const double part : {0.25, 0.5, 1.0}) {
-    const Eigen::Vector3d left = on_axes(point - forward(psi + part * step, zero_, zero_, t).position);
+    const Vector left = prescription_.miss(point, t, psi + part * step).error;
     if (!((left - (1 - part) * error).norm() <= kStraight * error.norm())) return false;
   }
   return true;
 }
 
-IkOutcome InverseKinematics::position(const Eigen::Vector3d& point, double t, Vector& psi) {
-  if (arm_) return closed_form(point, psi);
+IkOutcome InverseKinematics::position(const PathPoint& point, double t, Vector& psi) {
+  if (arm_) return closed_form(point.position, psi);
   double damping = 0;
-  const EndEffectorState<double>* state = &forward(psi, zero_, zero_, t);
-  Eigen::Vector3d error = on_axes(point - state->position);
-  Eigen::Matrix3d J = jacobian_of(*state);
+  const Vector active_scale = this->active_scale();
+  Prescription::Miss miss = prescription_.miss(point, t, psi);
   // Closures are followed all the way, and close no farther in a straight line than about a turn.
-  const double farthest = model_.scene->is_closed() ? 2 * kFarthestStart : HUGE_VAL;
+  const double farthest = hand_.model().scene->is_closed() ? 2 * kFarthestStart : HUGE_VAL;
   for (int i = 0; i < kMostIterations; ++i) {
-    const Vector step = first_of(damped_step(J, error, damping, motor_scale_), n_u_);
+    const Vector step = prescription_.on_all(damped_step(miss.jacobian, miss.error, damping, active_scale));
     const Vector trial = psi + step;
     // Longer steps would wind the motors up.
-    const double length = step.cwiseQuotient(motor_scale_).norm();
-    const bool sound = step.allFinite() &&
-                       (length <= 0.5 || (length <= farthest && leads_straight(point, t, psi, step, error)));
-    const double distance = error.norm();
+    const double length = step.cwiseQuotient(hand_.motor_scale()).norm();
+    const bool sound =
+        step.allFinite() &&
+        (length <= 0.5 || (length <= farthest && leads_straight(point, t, psi, step, miss.error)));
+    const double distance = miss.error.norm();
     // What Newton's method still has to go is quadratically small in the step (next to a singular pose a
     // small distance may take a long one): this step ends it.
-    if (sound && damping == 0 && distance <= std::max(1e-10 * scale_, resolution(point)) &&
-        length <= 1e-8 + kRoundOff * psi.cwiseQuotient(motor_scale_).norm()) {
+    if (sound && damping == 0 && distance <= std::max(1e-10 * scale(), resolution(point)) &&
+        length <= 1e-8 + kRoundOff * psi.cwiseQuotient(hand_.motor_scale()).norm()) {
       psi = trial;
       return IkOutcome::solved;
     }
-    if (sound) state = &forward(trial, zero_, zero_, t);
-    if (const Eigen::Vector3d left = on_axes(point - state->position); sound && left.norm() < distance) {
+    Prescription::Miss next;
+    if (sound) next = prescription_.miss(point, t, trial);
+    if (sound && next.error.norm() < distance) {
       psi = trial;
-      error = left;
-      J = jacobian_of(*state);
+      miss = std::move(next);
       damping = damping < 1e-6 ? 0 : damping / 10;
     } else {
       damping = damping == 0 ? 1e-6 : damping * 10;
       if (damping > 1e12) break;
     }
   }
-  return error.norm() <= std::max(1e-12 * scale_, resolution(point)) ? IkOutcome::solved
-                                                                     : IkOutcome::out_of_reach;
+  return miss.error.norm() <= std::max(1e-12 * scale(), resolution(point)) ? IkOutcome::solved
+                                                                           : IkOutcome::out_of_reach;
 }
 
-IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, double t, Vector& psi,
+IkOutcome InverseKinematics::position_from_home(const PathPoint& point, double t, Vector& psi,
                                                 const Accepts& accepts) {
-  psi = home_;
-  if (arm_) return closed_form(point, psi);
-  const double det_home = jacobian_of(forward(home_, zero_, zero_, t)).determinant();
+  const Vector& home = hand_.home();
+  const Vector& motor_scale = hand_.motor_scale();
+  psi = home;
+  if (arm_) return closed_form(point.position, psi);
+  // A redundant mechanism goes round its singular poses, and has no sides.
+  const auto side = [&](const Vector& at) {
+    return is_redundant() ? 1 : prescription_.miss(point, t, at).jacobian.determinant();
+  };
+  const double home_side = side(home);
   const auto on_home_side = [&](const Vector& at) {
-    return det_home * jacobian_of(forward(at, zero_, zero_, t)).determinant() >= 0 &&
-           (!accepts || accepts(at));
+    return home_side * side(at) >= 0 && (!accepts || accepts(at));
   };
   bool found_other = false;
   double nearest = HUGE_VAL, least_miss = HUGE_VAL;
@@ -225,10 +236,11 @@ IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, do
     // Spread evenly about home (a Kronecker sequence), farther and farther away.
     const double spread = kFarthestStart * start / kStartsFromHome;
     if (nearest <= spread) break;
-    Vector found = home_;
-    for (Eigen::Index i = 0; i < found.size(); ++i)
-      found[i] += spread * motor_scale_[i] *
-                  (2 * std::fmod(0.5 + start * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0) - 1);
+    Vector away(home.size());
+    for (Eigen::Index i = 0; i < away.size(); ++i)
+      away[i] = spread * motor_scale[i] *
+                (2 * std::fmod(0.5 + start * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0) - 1);
+    Vector found = home + prescription_.on_all(prescription_.on_active(away));
     if (start > 0 && !on_home_side(found)) continue;
     if (position(point, t, found) != IkOutcome::solved) {
       const double missed = miss(point, t, found);
@@ -236,8 +248,8 @@ IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, do
       least_miss = std::min(least_miss, missed);
     } else if (!on_home_side(found)) {
       found_other = true;
-    } else if (const double away = (found - home_).cwiseQuotient(motor_scale_).norm(); away < nearest) {
-      nearest = away;
+    } else if (const double distance = (found - home).cwiseQuotient(motor_scale).norm(); distance < nearest) {
+      nearest = distance;
       psi = found;
     }
   }
@@ -245,14 +257,28 @@ IkOutcome InverseKinematics::position_from_home(const Eigen::Vector3d& point, do
   return found_other ? IkOutcome::other_branch : IkOutcome::out_of_reach;
 }
 
+IkOutcome InverseKinematics::velocity(const PathPoint& point, double t, const Vector& psi, Vector& psid) {
+  Vector psidd;
+  if (arm_) return closed_form_rates(point, psid, psidd);
+  const Prescription::Miss now = prescription_.miss(point, t, psi);
+  psid = prescription_.on_all(LeastSolution(now.jacobian, active_scale()).solve(now.rate));
+  return psid.allFinite() ? IkOutcome::solved : IkOutcome::singular;
+}
+
 IkOutcome InverseKinematics::rates(const PathPoint& point, double t, const Vector& psi, Vector& psid,
                                    Vector& psidd) {
   if (arm_) return closed_form_rates(point, psid, psidd);
-  const EndEffectorState<double>& drift = forward(psi, zero_, zero_, t);
-  const Eigen::PartialPivLU<Eigen::Matrix3d> J(jacobian_of(drift));
-  psid = first_of(J.solve(on_axes(point.velocity - drift.velocity)), n_u_);
+  const Vector scale = active_scale();
+  const Prescription::Miss now = prescription_.miss(point, t, psi);
+  const LeastSolution J(now.jacobian, scale);
+  psid = prescription_.on_all(J.solve(now.rate));
   if (!psid.allFinite()) return IkOutcome::singular;
-  psidd = first_of(J.solve(on_axes(point.acceleration - forward(psi, psid, zero_, t).acceleration)), n_u_);
+  Vector moved = J.solve(prescription_.acceleration_to(point, t, psi, psid));
+  // d/dt (scale^2 J^T lambda): the least acceleration, and along the motors' freedom the rate of the least
+  // velocity.
+  if (!J.is_square())
+    moved += J.across(prescription_.turning_back(point, t, psi, psid, J.multipliers(now.rate)), scale);
+  psidd = prescription_.on_all(moved);
   return psidd.allFinite() ? IkOutcome::solved : IkOutcome::singular;
 }
 

@@ -2,11 +2,13 @@
 #include "planner/itinerary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "planner/cycloid.hpp"
+#include "planner/orientation.hpp"
 
 namespace mixloop {
 
@@ -40,27 +42,31 @@ Itinerary::Itinerary(const Path& path, double rate_hz, int stages)
   };
   const auto rest = [&](std::size_t at) {
     if (vias[at].dwell > 0)
-      add(stages * ticks_of(vias[at].dwell, rate_hz, vias[at].place, "the dwell"), vias[at].point,
-          vias[at].point, vias[at].place);
+      add(stages * ticks_of(vias[at].dwell, rate_hz, vias[at].place, "the dwell"), vias[at], vias[at],
+          vias[at].place);
   };
   rest(0);
   for (std::size_t i = 1; i < vias.size(); ++i) {
-    add(line(i), vias[i - 1].point, vias[i].point, vias[i].place);
+    add(line(i), vias[i - 1], vias[i], vias[i].place);
     rest(i);
   }
   if (path.repeat == 0) return;
   laps_ = path.repeat;
   for (std::size_t i = vias.size() - 1; i > 0; --i) {
     if (i + 1 < vias.size()) rest(i);
-    add(line(i), vias[i].point, vias[i - 1].point, vias[i].place);
+    add(line(i), vias[i], vias[i - 1], vias[i].place);
   }
 }
 
-void Itinerary::add(std::int64_t count, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                    const Place& place) {
+bool Itinerary::Stretch::is_rest() const {
+  return from.point == to.point && from.motors == to.motors && turn.isZero(0);
+}
+
+void Itinerary::add(std::int64_t count, const Path::Via& from, const Path::Via& to, const Place& place) {
   const std::int64_t first = stretches_.empty() ? 0 : lap_steps();
   if (first + count > kMostSteps) refuse_length(place, "the path");
-  stretches_.push_back({first, count, from, to, place});
+  stretches_.push_back(
+      {first, count, from, to, rotation_vector(to.rotation * from.rotation.transpose()), place});
 }
 
 Itinerary::Within Itinerary::within(double step) const {
@@ -75,13 +81,24 @@ Itinerary::Within Itinerary::within(double step) const {
 
 PathPoint Itinerary::at(double step) const {
   const auto [stretch, x] = within(step);
-  const double T_T = static_cast<double>(stretch.count) / step_rate_;
-  const auto [s, sd, sdd] = cycloid(x, 1, T_T);
-  const Eigen::Vector3d along = stretch.to - stretch.from;
+  const auto [s, sd, sdd] = cycloid(x, 1, duration_of(stretch));
+  const Eigen::Vector3d &from = stretch.from.point, &to = stretch.to.point, along = to - from;
+  PathPoint point{.position = from + s * along, .velocity = sd * along, .acceleration = sdd * along};
   // From the nearer end: both come out exact.
-  PathPoint point{stretch.from + s * along, sd * along, sdd * along};
-  if (s > 0.5) point.position = stretch.to - (1 - s) * along;
+  const bool is_far = s > 0.5;
+  if (is_far) point.position = to - (1 - s) * along;
+  const Eigen::Vector3d& turn = stretch.turn;
+  point.rotation = turn_by((is_far ? s - 1 : s) * turn) * (is_far ? stretch.to : stretch.from).rotation;
+  point.spin = sd * turn;
+  point.spin_rate = sdd * turn;
   return point;
+}
+
+PsiMotion Itinerary::motors_at(double step) const {
+  const auto [stretch, x] = within(step);
+  const auto [s, sd, sdd] = cycloid(x, 1, duration_of(stretch));
+  const Vector &from = stretch.from.motors, &to = stretch.to.motors, along = to - from;
+  return {s > 0.5 ? Vector(to - (1 - s) * along) : Vector(from + s * along), sd * along, sdd * along};
 }
 
 std::string Itinerary::to_text(const Eigen::Vector3d& point) const {
@@ -90,15 +107,26 @@ std::string Itinerary::to_text(const Eigen::Vector3d& point) const {
   return text + ")";
 }
 
+std::string Itinerary::to_text(const Path::Via& point) const {
+  if (point.motors.size() == 0) return to_text(point.point);
+  return fmt::format("({:.6g})", fmt::join(point.motors, ", "));
+}
+
 std::string Itinerary::describe(double step) const {
   const auto [stretch, x] = within(step);
   std::string lap;
   if (laps_ > 1)
     lap = fmt::format(", lap {} of {}", std::min(laps_, 1 + static_cast<std::int64_t>(step) / lap_steps()),
                       laps_);
-  if (stretch.from == stretch.to) return fmt::format("at rest at {} m{}", to_text(stretch.from), lap);
-  return fmt::format("{:.4g} of the line from {} to {} m, at {} m{}", cycloid(x, 1, 1).s,
-                     to_text(stretch.from), to_text(stretch.to), to_text(at(step).position), lap);
+  const char* unit = stretch.to.motors.size() > 0 ? " of the motors" : " m";
+  if (stretch.is_rest()) return fmt::format("at rest at {}{}{}", to_text(stretch.from), unit, lap);
+  Path::Via here = stretch.to;
+  if (here.motors.size() > 0)
+    here.motors = motors_at(step).psi;
+  else
+    here.point = at(step).position;
+  return fmt::format("{:.4g} of the line from {} to {}{}, at {}{}{}", cycloid(x, 1, 1).s,
+                     to_text(stretch.from), to_text(stretch.to), unit, to_text(here), unit, lap);
 }
 
 const Place& Itinerary::place(double step) const { return within(step).stretch.place; }

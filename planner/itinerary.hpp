@@ -27,8 +27,10 @@ class Itinerary {
   std::int64_t steps() const { return laps_ * lap_steps(); }
   double step_rate() const { return step_rate_; }
 
-  /// 0 <= step <= steps().
+  /// 0 <= step <= steps(). Of a path of the end effector, turned as the points' `rotation` says.
   PathPoint at(double step) const;
+  /// The same of a path of the motors.
+  PsiMotion motors_at(double step) const;
   /// "0.41 of the line from (0.3, 0, 0.8) to (-0.3, 0.4, 0.3) m, at (0.054, 0.164, 0.595) m", for messages.
   std::string describe(double step) const;
   /// The place, in its file, of the point that the line of this step leads to.
@@ -37,8 +39,10 @@ class Itinerary {
  private:
   struct Stretch {
     std::int64_t first = 0, count = 0;  ///< steps
-    Eigen::Vector3d from, to;
+    Path::Via from, to;
+    Eigen::Vector3d turn;  ///< rotation vector from one to the other, inertial axes
     Place place;
+    bool is_rest() const;
   };
   /// A stretch and how far into it, 0 to 1.
   struct Within {
@@ -46,8 +50,9 @@ class Itinerary {
     double x;
   };
   Within within(double step) const;
-  void add(std::int64_t count, const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Place& place);
-
+  void add(std::int64_t count, const Path::Via& from, const Path::Via& to, const Place& place);
+  double duration_of(const Stretch& stretch) const { return static_cast<double>(stretch.count) / step_rate_; }
+  std::string to_text(const Path::Via& point) const;
   std::string to_text(const Eigen::Vector3d& point) const;
 
   std::vector<int> axes_;

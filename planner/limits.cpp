@@ -3,17 +3,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mixloop {
 namespace {
 
-void require(const std::vector<double>& limit, std::size_t n_u, const char* what) {
-  if (limit.empty()) return;
-  if (limit.size() != n_u)
+constexpr double kSlack = 1e-9;  // a move worked out to run at its limit is off by rounding
+
+template <class Limit>
+void require_each(const std::vector<Limit>& limit, std::size_t n_u, const char* what) {
+  if (!limit.empty() && limit.size() != n_u)
     throw InputError("wrong_size", {},
                      fmt::format("the {} limit has {} values; expected one for each of the {} motors", what,
                                  limit.size(), n_u));
+}
+
+void require(const std::vector<double>& limit, std::size_t n_u, const char* what) {
+  require_each(limit, n_u, what);
   for (const double value : limit)
     if (!(value > 0))
       throw InputError("out_of_range", {},
@@ -27,9 +34,17 @@ LimitCheck::LimitCheck(const Model<double>& model, const PlanLimits& limits)
   const std::size_t n_u = model.scene->motors().size();
   require(limits.velocity, n_u, "velocity");
   require(limits.torque, n_u, "torque");
+  require_each(limits.position, n_u, "position");
+  for (const auto& [least, most] : limits.position)
+    if (!(least < most))
+      throw InputError(
+          "out_of_range", {},
+          fmt::format("a position limit from {:g} to {:g}; expected the lower one first", least, most));
 }
 
 void LimitCheck::look(std::int64_t step, const Reference& reference, double t) {
+  for (std::size_t i = 0; i < limits_.position.size(); ++i)
+    compare_position(step, i, reference.psi[static_cast<Eigen::Index>(i)]);
   if (limits_.velocity.empty() && limits_.torque.empty()) return;
   for (std::size_t i = 0; i < limits_.velocity.size(); ++i) {
     const auto motor = static_cast<Eigen::Index>(i);
@@ -48,8 +63,18 @@ void LimitCheck::look(std::int64_t step, const Reference& reference, double t) {
     compare(step, i, tau[static_cast<Eigen::Index>(i)], limits_.torque[i], true);
 }
 
+void LimitCheck::compare_position(std::int64_t step, std::size_t motor, double value) {
+  const auto [least, most] = limits_.position[motor];
+  const double ratio = 1 + std::max(least - value, value - most) / (most - least);
+  if (ratio <= (worst_ ? worst_->ratio : 1 + kSlack)) return;
+  const Scene::Independent& limited = model_.scene->motors()[motor];
+  worst_ =
+      Excess{step, ratio,
+             fmt::format("the motor {} would stand at {:.6g} {unit}; its limits are {:.6g} to {:.6g} {unit}",
+                         limited.name, value, least, most, fmt::arg("unit", limited.linear ? "m" : "rad"))};
+}
+
 void LimitCheck::compare(std::int64_t step, std::size_t motor, double value, double limit, bool torque) {
-  constexpr double kSlack = 1e-9;  // a move worked out to run at its limit is off by rounding
   const double ratio = std::abs(value) / limit;
   if (ratio <= (worst_ ? worst_->ratio : 1 + kSlack)) return;
   const Scene::Independent& limited = model_.scene->motors()[motor];

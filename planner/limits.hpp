@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,12 +17,14 @@ struct PlanLimits {
   std::vector<double> velocity = {};  ///< rad/s or m/s
   std::vector<double> torque = {};    ///< N m or N, along the path by inverse dynamics of the plan's model,
                                       ///< free coordinates held at home
+  std::vector<std::array<double, 2>> position = {};  ///< rad or m, the least and the most
+  std::vector<double> motor_error = {};  ///< rad or m, of a path of the motors: past it a run has diverged
 };
 
 /// The worst excess over a limit.
 struct Excess {
   std::int64_t step = 0;
-  double ratio = 1;     ///< of the value to its limit
+  double ratio = 1;     ///< of the value to its limit; of a position 1 and its excess over the range
   std::string message;  ///< "motor psi2 would turn at 120 rad/s; its limit is 100 rad/s"
 };
 
@@ -37,6 +40,7 @@ class LimitCheck {
   const std::optional<Excess>& worst() const { return worst_; }
 
  private:
+  void compare_position(std::int64_t step, std::size_t motor, double value);
   void compare(std::int64_t step, std::size_t motor, double value, double limit, bool torque);
 
   const Model<double>& model_;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include "dynamics/scene/time_dependence.hpp"
 #include "notation/long_work.hpp"
@@ -32,17 +34,29 @@ const Plan::Settings& checked(const Plan::Settings& settings, const Model<double
   return settings;
 }
 
+/// Of a path of the end effector. What the motors can't settle is said where the path stands.
+std::unique_ptr<InverseKinematics> inverse_of(const Model<double>& model, const Path& path) {
+  if (path.is_of_motors()) return nullptr;
+  try {
+    return std::make_unique<InverseKinematics>(model, InverseKinematics::Method::closed_form_if_known,
+                                               InverseKinematics::Redundancy{path.held, path.least_norm});
+  } catch (const InputError& error) {
+    throw error.code == "no_inverse" ? InputError(error.code, path.place, error.message) : error;
+  }
+}
+
 }  // namespace
 
 PlanMaker::PlanMaker(const Model<double>& model, const Path& path, const Plan::Settings& settings)
     : model_(model),
-      path_(path),
+      hand_(model),
+      path_(oriented(path, hand_)),
       settings_(checked(settings, model)),
       width_(static_cast<std::int64_t>(settings.within.size())),
-      itinerary_(path, settings.rate_hz, settings.stages_per_tick),
-      ik_(model),
-      measures_(model, ik_.motor_scale()),
-      refusal_(path, itinerary_, ik_, measures_),
+      itinerary_(path_, settings.rate_hz, settings.stages_per_tick),
+      ik_(inverse_of(model, path_)),
+      measures_(model, hand_.motor_scale(), ik_ ? std::optional(path_.held) : std::nullopt),
+      refusal_(path_, itinerary_, ik(), measures_),
       timed_(constraints_depend_on_time(*model.scene)),
       timed_loads_(loads_depend_on_time(*model.scene) && !settings.limits.torque.empty()) {}
 
@@ -81,9 +95,12 @@ std::span<double> PlanMaker::row(Plan& plan, std::int64_t index) const {
 void PlanMaker::write(const Follower::Motion& motion, double t, std::span<double> row) {
   const auto& [psi, psid, psidd] = motion.motors;
   PathPoint E = motion.desired;
-  const auto& axes = model_.scene->end_effector.axes;
-  if (axes.size() < 3) {
-    const auto& state = ik_.forward(psi, psid, psidd, t);
+  const auto& [axes, is_named] = std::tie(model_.scene->end_effector.axes, model_.scene->end_effector.named);
+  if (!is_named) {
+    for (Eigen::Vector3d* nowhere : {&E.position, &E.velocity, &E.acceleration})
+      nowhere->setConstant(std::numeric_limits<double>::quiet_NaN());
+  } else if (axes.size() < 3) {
+    const auto& state = hand().at(psi, psid, psidd, t);
     for (int i = 0; i < 3; ++i) {
       if (std::find(axes.begin(), axes.end(), i) != axes.end()) continue;
       E.position[i] = state.position[i];
@@ -100,7 +117,7 @@ void PlanMaker::follow(Plan& plan, std::int64_t delay) {
   const std::int64_t steps = lap_steps_;
   plan.table_.resize(static_cast<std::size_t>(steps * width_ + 1) * reference_size(plan.n_u_));
   samples_.resize(static_cast<std::size_t>(steps + 1) * measures_.count());
-  Follower follower(ik_, itinerary_, delay);
+  Follower follower = this->follower(delay);
   const double t_start = follower.time(0);
   const auto on_branch = [&](const Vector& psi) { return measures_.on_home_branch(psi, t_start); };
   if (const IkOutcome outcome = follower.start(on_branch); outcome != IkOutcome::solved)
@@ -139,7 +156,7 @@ void PlanMaker::follow_within(Plan& plan, std::int64_t step, Follower& follower)
 }
 
 void PlanMaker::check_singularities(Plan& plan, std::int64_t delay) {
-  Follower follower(ik_, itinerary_, delay);
+  Follower follower = this->follower(delay);
   const auto measures_at = [&](double step, double* values) {
     work_goes_on();
     const std::int64_t before = std::llround(std::floor(step));
@@ -149,15 +166,19 @@ void PlanMaker::check_singularities(Plan& plan, std::int64_t delay) {
       return measures_.evaluate(follower.now().motors.psi, follower.time(step), values);
     std::fill_n(values, measures_.count(), 0.0);  // no solution between two solutions: a singularity
   };
-  if (const auto passage = first_passage(samples_, measures_.count(), measures_at))
-    refusal_.passage(*passage);
+  const auto passage = first_passage(samples_, measures_.count(), measures_at);
+  if (!passage) return;
+  std::vector<double> there(measures_.count());
+  measures_at(passage->step, there.data());
+  const double at = follower.now().step;
+  refusal_.passage(*passage, measures_.lost(passage->measure, follower.now().motors.psi, follower.time(at)));
 }
 
 void PlanMaker::check_limits(Plan& plan, std::int64_t delay) {
   LimitCheck check(model_, settings_.limits);
   // Loads that depend on time make every lap's torques different.
   const std::int64_t laps = timed_loads_ ? itinerary_.steps() / lap_steps_ : 1;
-  const Follower clock(ik_, itinerary_, delay);
+  const Follower clock = follower(delay);
   for (std::int64_t lap = 0; lap < laps; ++lap)
     for (std::int64_t i = 0; i <= lap_steps_; ++i) {
       work_goes_on();
@@ -169,7 +190,8 @@ void PlanMaker::check_limits(Plan& plan, std::int64_t delay) {
 
 std::int64_t PlanMaker::approach_ticks(Plan& plan, const Vector& move) {
   const Reference start = reference_in(row(plan, 0), plan.n_u_);
-  if ((move.cwiseAbs() - 1e-12 * ik_.motor_scale().cwiseMax(start.psi.cwiseAbs())).maxCoeff() <= 0) return 0;
+  if ((move.cwiseAbs() - 1e-12 * hand_.motor_scale().cwiseMax(start.psi.cwiseAbs())).maxCoeff() <= 0)
+    return 0;
   if (path_.approach) return ticks_of(*path_.approach, settings_.rate_hz, path_.place, "the approach");
   const Vector fastest = settings_.limits.velocity.empty()
                              ? fastest_on_path(plan)
@@ -205,14 +227,15 @@ void PlanMaker::approach(Plan& plan, const Vector& from, std::int64_t ticks) {
   plan.start_tick_ = ticks;
   plan.ticks_ += ticks;
 
-  const std::size_t named = measures_.count() - 1;
+  const std::size_t named = measures_.named();
   std::vector<double> values(measures_.count()), samples;
   LimitCheck check(model_, settings_.limits);
   AngleWatch angles(*model_.scene, model_.parameters);
   const auto fill = [&](double step, std::int64_t index) {
     const double t = step / rate;
     Follower::Motion motion{0, {}, at(step)};
-    const auto& E = ik_.forward(motion.motors.psi, motion.motors.psid, motion.motors.psidd, t);
+    const auto& E = hand().at(motion.motors.psi, motion.motors.psid, motion.motors.psidd, t);
+    if (!E.acceleration.allFinite()) refusal_.not_closed_before(step, move.duration());
     motion.desired = {E.position, E.velocity, E.acceleration};
     write(motion, t, row(plan, index));
   };

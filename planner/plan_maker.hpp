@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "dynamics/scene/continuous_angles.hpp"
 #include "planner/plan.hpp"
 #include "planner/refusal.hpp"
@@ -18,6 +20,9 @@ class PlanMaker {
  private:
   void require_room(double steps) const;
   std::span<double> row(Plan& plan, std::int64_t index) const;
+  Follower follower(std::int64_t delay) {
+    return ik_ ? Follower(*ik_, itinerary_, delay) : Follower(hand_, itinerary_, delay);
+  }
   void write(const Follower::Motion& motion, double t, std::span<double> row);
   void follow(Plan& plan, std::int64_t delay);
   std::string jump(AngleWatch& angles, const Vector& motors, double t) const;
@@ -29,12 +34,16 @@ class PlanMaker {
   void approach(Plan& plan, const Vector& from, std::int64_t ticks);
   void rest_past_the_end(Plan& plan);
 
+  InverseKinematics* ik() { return ik_.get(); }
+  HandKinematics& hand() { return ik_ ? ik_->hand() : hand_; }
+
   const Model<double>& model_;
-  const Path& path_;
+  HandKinematics hand_;
+  Path path_;  ///< with the end effector's rotation at each of its points
   const Plan::Settings& settings_;
   std::int64_t width_;  ///< rows a step
   Itinerary itinerary_;
-  InverseKinematics ik_;
+  std::unique_ptr<InverseKinematics> ik_;  ///< of a path of the end effector
   SingularityMeasures measures_;
   Refusal refusal_;
   bool timed_;        ///< the constraints depend on time: no lap is like the other

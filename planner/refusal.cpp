@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kTouching = 1e-9;  // of the mechanism's size: what is nearer than that is reached
 
+constexpr const char* kNotClosed =
+    "the mechanism's closures can't be closed: it has no pose with its motors there";
+
 }  // namespace
 
 std::string Refusal::where(double step) const {
@@ -31,9 +34,9 @@ std::string Refusal::text(const Passage& passage) const {
       passage.value);
 }
 
-void Refusal::passage(const Passage& passage) const {
+void Refusal::passage(const Passage& passage, const std::string& lost) const {
   throw InputError(passage.crosses ? "crosses_branch" : "singular_path", itinerary_.place(passage.step),
-                   where(passage.step) + text(passage));
+                   where(passage.step) + text(passage) + lost);
 }
 
 void Refusal::excess(const Excess& excess) const {
@@ -65,15 +68,25 @@ void Refusal::singular(double step, const Vector& last, double t) const {
   std::vector<double> values(measures_.count());
   measures_.evaluate(last, t, values.data());
   const auto least = std::min_element(values.begin(), values.end());
-  passage({step, static_cast<std::size_t>(least - values.begin()), std::max(*least, 0.0), false});
+  const auto measure = static_cast<std::size_t>(least - values.begin());
+  passage({step, measure, std::max(*least, 0.0), false}, measures_.lost(measure, last, t));
+}
+
+void Refusal::not_closed(double step) const {
+  throw InputError("unreachable", itinerary_.place(step), where(step) + kNotClosed);
+}
+
+void Refusal::not_closed_before(double step, double duration) const {
+  throw InputError("unreachable", path_.place, where_before(step, duration) + kNotClosed);
 }
 
 void Refusal::no_start(IkOutcome outcome, const Vector& nearest, double t) const {
+  if (!ik_) not_closed(0);
   const std::string start = "the path's start, " + itinerary_.describe(0) + ", ";
   if (outcome == IkOutcome::other_branch)
     throw InputError("crosses_branch", path_.vias[0].place,
                      start + "can be reached only on another branch than home's");
-  if (outcome == IkOutcome::singular || out_of_reach(0, t, nearest) <= kTouching * ik_.scale())
+  if (outcome == IkOutcome::singular || out_of_reach(0, t, nearest) <= kTouching * ik_->scale())
     singular(0, nearest, t);
   throw InputError("unreachable", path_.vias[0].place,
                    start + "is out of reach: " + reach_text(0, t, nearest));
@@ -81,6 +94,7 @@ void Refusal::no_start(IkOutcome outcome, const Vector& nearest, double t) const
 
 void Refusal::no_way(Follower& follower, double step) const {
   const double end = follower.limit(step);
+  if (!ik_) not_closed(end);
   const Vector last = follower.now().motors.psi;
   double farthest = step, most = 0;
   for (int i = 0; i <= 256; ++i) {
@@ -91,7 +105,7 @@ void Refusal::no_way(Follower& follower, double step) const {
     farthest = at;
   }
   // Where all of it can be reached, it is the way there that the motors don't find.
-  if (most <= kTouching * ik_.scale()) singular(end, last, follower.time(end));
+  if (most <= kTouching * ik_->scale()) singular(end, last, follower.time(end));
   throw InputError("unreachable", itinerary_.place(end),
                    where(end) + "it leaves what can be reached; " + where(farthest) + "it is " +
                        reach_text(farthest, follower.time(farthest), last));
@@ -99,25 +113,28 @@ void Refusal::no_way(Follower& follower, double step) const {
 
 /// How far the point of a step is out of reach, m; 0 within it. `nearby`: motors to start a search from.
 double Refusal::out_of_reach(double step, double t, Vector nearby) const {
-  const Eigen::Vector3d point = itinerary_.at(step).position;
-  if (!ik_.arm()) return ik_.position(point, t, nearby) == IkOutcome::solved ? 0 : ik_.miss(point, t, nearby);
-  const ThreeAxisArm& arm = *ik_.arm();
-  const ArmReach reach = reach_of(arm, point);
-  if (reach.beside < 0) return std::abs(arm.lateral) - point.head<2>().norm();
+  const PathPoint point = itinerary_.at(step);
+  if (!ik_->arm())
+    return ik_->position(point, t, nearby) == IkOutcome::solved ? 0 : ik_->miss(point, t, nearby);
+  const ThreeAxisArm& arm = *ik_->arm();
+  const ArmReach reach = reach_of(arm, point.position);
+  if (reach.beside < 0) return std::abs(arm.lateral) - point.position.head<2>().norm();
   return std::max({0.0, reach.distance - arm.farthest(), arm.nearest() - reach.distance});
 }
 
 std::string Refusal::reach_text(double step, double t, Vector nearby) const {
-  const Eigen::Vector3d point = itinerary_.at(step).position;
-  if (!ik_.arm()) {
-    ik_.position(point, t, nearby);
-    return fmt::format("{:.4g} m from the nearest place that a search found", ik_.miss(point, t, nearby));
+  const PathPoint point = itinerary_.at(step);
+  if (!ik_->arm()) {
+    ik_->position(point, t, nearby);
+    const auto [error, jacobian, rate, place, angle] = ik_->prescription().miss(point, t, nearby);
+    return fmt::format("{:.4g} m{} from the nearest place that a search found", place,
+                       angle > 0 ? fmt::format(" and {:.4g} rad", angle) : "");
   }
-  const ThreeAxisArm& arm = *ik_.arm();
-  const ArmReach reach = reach_of(arm, point);
+  const ThreeAxisArm& arm = *ik_->arm();
+  const ArmReach reach = reach_of(arm, point.position);
   if (reach.beside < 0)
     return fmt::format("{:.6g} m from the base axis; the arm's plane is {:.6g} m from it",
-                       point.head<2>().norm(), std::abs(arm.lateral));
+                       point.position.head<2>().norm(), std::abs(arm.lateral));
   return fmt::format("{:.6g} m from the shoulder axis; the arm reaches from {:.6g} to {:.6g} m",
                      reach.distance, arm.nearest(), arm.farthest());
 }

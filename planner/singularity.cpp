@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "planner/singularity.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -13,29 +17,44 @@ namespace {
 /// A value that is this small beside those round about is a zero.
 constexpr double kZero = 1e-9;
 constexpr double kRoundAbout = 0.1;  // in motor scales
+constexpr double kTakesPart = 0.05;  // of a move of the motors, in their scales
 
-/// det A / |adj A| = 1 / |A^-1| in Frobenius norms, for A of 1 to 3 rows; 0 where A has no inverse.
-double signed_distance_to_singular(const Eigen::Matrix3d& A, int n) {
-  if (n == 1) return A(0, 0);
-  if (n == 2) {
-    const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0), norm = A.topLeftCorner<2, 2>().norm();
+/// det A / |adj A| = 1 / |A^-1| in Frobenius norms, for A of up to 3 rows; 0 where A has no inverse.
+double small_distance_to_singular(const Matrix& A) {
+  if (A.rows() == 1) return A(0, 0);
+  if (A.rows() == 2) {
+    const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0), norm = A.norm();
     return norm > 0 ? det / norm : 0;
   }
-  const Eigen::Vector3d x = A.col(1).cross(A.col(2)), y = A.col(2).cross(A.col(0)),
-                        z = A.col(0).cross(A.col(1));
+  const Eigen::Vector3d a = A.col(0), b = A.col(1), c = A.col(2), x = b.cross(c), y = c.cross(a),
+                        z = a.cross(b);
   const double norm = std::sqrt(x.squaredNorm() + y.squaredNorm() + z.squaredNorm());
-  return norm > 0 ? A.col(0).dot(x) / norm : 0;
+  return norm > 0 ? a.dot(x) / norm : 0;
+}
+
+/// The same for any A with no more rows than columns: of a wide one by its pseudoinverse, and without a sign.
+double signed_distance_to_singular(const Matrix& A) {
+  if (!A.allFinite()) return std::nan("");
+  const bool is_square = A.rows() == A.cols();
+  if (is_square && A.rows() <= 3) return small_distance_to_singular(A);
+  const Vector sigma = Eigen::JacobiSVD<Matrix>(A).singularValues();
+  if (!(sigma[sigma.size() - 1] > 0)) return 0;
+  const double distance = 1 / sigma.cwiseInverse().norm();
+  return is_square ? std::copysign(distance, A.determinant()) : distance;
 }
 
 }  // namespace
 
-SingularityMeasures::SingularityMeasures(const Model<double>& model, const Vector& motor_scale)
+SingularityMeasures::SingularityMeasures(const Model<double>& model, const Vector& motor_scale,
+                                         const std::optional<std::vector<int>>& held)
     : model_(model),
       n_u_(model.n_u()),
       ws_(model),
       motor_scale_(motor_scale),
-      scale_(model.scene->singularities.size() + 1, 1.0),
+      hand_(model),
+      scale_(model.scene->singularities.size() + (held ? 1 : 0), 1.0),
       buffer_(scale_.size()) {
+  if (held) prescription_.emplace(hand_, *held);
   const Vector home = Eigen::Map<const Vector>(model.scene->home.data(), n_u_);
   evaluate_raw(home, 0, scale_.data());
   const std::vector<double> about = largest_about(home);
@@ -58,8 +77,8 @@ std::vector<double> SingularityMeasures::largest_about(const Vector& psi) {
 }
 
 std::string SingularityMeasures::name(std::size_t measure) const {
-  const auto& named = model_.scene->singularities;
-  return measure < named.size() ? "'" + named[measure].name + "'" : "of the end effector's Jacobian";
+  const auto& singularities = model_.scene->singularities;
+  return measure < named() ? "'" + singularities[measure].name + "'" : "of the end effector's Jacobian";
 }
 
 void SingularityMeasures::evaluate_raw(const Vector& motors, double t, double* values) {
@@ -76,23 +95,30 @@ void SingularityMeasures::evaluate_raw(const Vector& motors, double t, double* v
   };
   for (const auto& singularity : scene.singularities)
     *values++ = mixloop::evaluate<double>(singularity.measure, symbol);
-  *values = signed_distance_to_singular(scaled_jacobian(), n_u_);
+  if (prescription_) *values = signed_distance_to_singular(scaled_jacobian(motors, t));
 }
 
-// The rows D C of the scene's axes, in units of the motors' scale; the rest of 3 x 3 is zero.
-Eigen::Matrix3d SingularityMeasures::scaled_jacobian() {
-  frame_variations(model_, ws_);
-  const auto& end_effector = model_.scene->end_effector;
-  const auto& path = model_.path(end_effector.frame);
-  linear_variations<double>(ws_.frames[static_cast<std::size_t>(end_effector.frame)],
-                            model_.end_effector_point, ws_.D);
-  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
-  for (std::size_t k = 0; k < path.size(); ++k)
-    for (int i = 0; i < n_u_; ++i)
-      for (int j = 0; j < n_u_; ++j)
-        J(i, j) += ws_.D(end_effector.axes[static_cast<std::size_t>(i)], static_cast<Eigen::Index>(k)) *
-                   ws_.C(path[k], j) * motor_scale_[j];
-  return J;
+Matrix SingularityMeasures::scaled_jacobian(const Vector& motors, double t) {
+  return prescription_->jacobian(t, motors) * prescription_->on_active(motor_scale_).asDiagonal();
+}
+
+// By the singular vectors of the least singular value.
+std::string SingularityMeasures::lost(std::size_t measure, const Vector& psi, double t) {
+  if (measure < named()) return {};
+  const Matrix J = scaled_jacobian(psi, t);
+  if (!J.allFinite()) return {};
+  const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::Index last = svd.singularValues().size() - 1;
+  std::string motors;
+  if (J.rows() == J.cols()) {
+    const Vector idle = prescription_->on_all(svd.matrixV().col(last));
+    for (Eigen::Index i = 0; i < idle.size(); ++i)
+      if (std::abs(idle[i]) > kTakesPart)
+        motors += (motors.empty() ? "" : ", ") + model_.scene->motors()[static_cast<std::size_t>(i)].name;
+    motors = fmt::format(", whatever {} {}", motors,
+                         motors.find(',') == std::string::npos ? "does" : "do together");
+  }
+  return fmt::format(" ({}{})", prescription_->text_of_lost(t, psi, svd.matrixU().col(last)), motors);
 }
 
 void SingularityMeasures::evaluate(const Vector& psi, double t, double* values) {

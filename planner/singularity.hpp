@@ -7,21 +7,32 @@
 #include <vector>
 
 #include "dynamics/procedure/procedure.hpp"
+#include "planner/prescription.hpp"
 
 namespace mixloop {
 
-/// What no path may take through zero: each of the scene's `singularities`, and the smallest singular value
-/// of the end effector's Jacobian (in the Frobenius norm, motors in units of their `motor_scale`, with the
-/// determinant's sign). Each is divided by its value at home: 1 there, positive on home's branch.
+/// What no path may take through zero: each of the scene's `singularities`, and of a path of the end effector
+/// the smallest singular value of the Jacobian of what is prescribed (in the Frobenius norm, motors in units
+/// of their `motor_scale`, with the determinant's sign where it is square). Each is divided by its value at
+/// home: 1 there, positive on home's branch.
 class SingularityMeasures {
  public:
   /// Below this much of the value at home a path is too near.
   static constexpr double kLeast = 1e-3;
 
-  SingularityMeasures(const Model<double>& model, const Vector& motor_scale);
+  /// `held`: motors that don't move on a path of the end effector; none: it is of the motors. Refers to
+  /// `model`.
+  SingularityMeasures(const Model<double>& model, const Vector& motor_scale,
+                      const std::optional<std::vector<int>>& held);
+  SingularityMeasures(const SingularityMeasures&) = delete;
 
+  /// Those that the scene names, which are the first.
+  std::size_t named() const { return model_.scene->singularities.size(); }
   std::size_t count() const { return scale_.size(); }
   std::string name(std::size_t measure) const;
+  /// What the end effector can't do where the measure is zero, nearby: " (...)", or nothing where the scene
+  /// names it.
+  std::string lost(std::size_t measure, const Vector& psi, double t);
 
   /// count() values, for the motors' psi (n_u).
   void evaluate(const Vector& psi, double t, double* values);
@@ -33,12 +44,14 @@ class SingularityMeasures {
  private:
   void evaluate_raw(const Vector& motors, double t, double* values);
   std::vector<double> largest_about(const Vector& psi);
-  Eigen::Matrix3d scaled_jacobian();
+  Matrix scaled_jacobian(const Vector& motors, double t);
 
   const Model<double>& model_;
   int n_u_;
   Workspace<double> ws_;
   Vector motor_scale_;
+  HandKinematics hand_;
+  std::optional<Prescription> prescription_;
   std::vector<double> scale_, buffer_;
 };
 

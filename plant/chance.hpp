@@ -8,7 +8,16 @@
 namespace mixloop {
 
 /// What a random number is drawn for: each has numbers of its own.
-enum class Draw : std::uint64_t { noise, drop, motor_fault, position_fault, velocity_fault };
+enum class Draw : std::uint64_t {
+  noise,
+  drop,
+  motor_fault,
+  position_fault,
+  velocity_fault,
+  sample,       ///< of a sweep, whose runs stand for ticks
+  permutation,  ///< of its strata
+  scramble      ///< of its points
+};
 
 /// Random numbers as a function of seed, tick, channel and what they are for: whoever draws them, in whatever
 /// order and however often, gets the same ones.
@@ -30,6 +39,13 @@ class Chance {
     return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
   }
 
+  /// 64 random bits; `index`: 0 or 1.
+  std::uint64_t bits(std::int64_t tick, std::size_t channel, Draw draw, std::uint64_t index = 0) const {
+    const std::uint64_t which =
+        (static_cast<std::uint64_t>(channel) << 8) | (static_cast<std::uint64_t>(draw) << 1) | index;
+    return mixed(mixed(seed_ + static_cast<std::uint64_t>(tick)) + which);
+  }
+
  private:
   /// A step of SplitMix64 (Steele, Lea & Flood, Fast splittable pseudorandom number generators, 2014).
   static std::uint64_t mixed(std::uint64_t z) {
@@ -37,12 +53,6 @@ class Chance {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
     z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
     return z ^ (z >> 31);
-  }
-
-  std::uint64_t bits(std::int64_t tick, std::size_t channel, Draw draw, std::uint64_t index) const {
-    const std::uint64_t which =
-        (static_cast<std::uint64_t>(channel) << 8) | (static_cast<std::uint64_t>(draw) << 1) | index;
-    return mixed(mixed(seed_ + static_cast<std::uint64_t>(tick)) + which);
   }
 
   std::uint64_t seed_;

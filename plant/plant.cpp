@@ -17,13 +17,16 @@ Equations::Options options_of(const PlantSettings& settings) {
 }  // namespace
 
 std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
-                                                 const PlantSettings& settings) {
+                                                 const PlantSettings& settings, EquationsShelf* shelf) {
   const Equations::Options options = options_of(settings);
-  if (settings.partitions) scene = settings.partitions->front().scene;
+  if (settings.partitions) {  // whose scenes are each experiment's own
+    scene = settings.partitions->front().scene;
+    shelf = nullptr;
+  }
   std::vector<Purpose> purposes = {Purpose::forward_dynamics};
   if (facts(settings.integrator).jacobian) purposes.push_back(Purpose::linearisation);
   if (scene->n() > scene->n_u()) purposes.push_back(Purpose::mass_matrix);  // by which HeldMotors go
-  return equations_of(std::move(scene), how, purposes, options);
+  return shelved_equations(shelf, scene, how, purposes, options);
 }
 
 /// What acts on the mechanism: ideal drives or not.

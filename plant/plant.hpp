@@ -6,6 +6,7 @@
 #include <span>
 
 #include "dynamics/equations.hpp"
+#include "dynamics/equations_shelf.hpp"
 #include "dynamics/partitions.hpp"
 #include "plant/hardware.hpp"
 #include "plant/held_motors.hpp"
@@ -13,9 +14,10 @@
 
 namespace mixloop {
 
-/// The equations that a plant of these settings evaluates, at first.
+/// The equations that a plant of these settings evaluates, at first; from a shelf where there is one.
 std::shared_ptr<const Equations> plant_equations(std::shared_ptr<const Scene> scene, Evaluation how,
-                                                 const PlantSettings& settings);
+                                                 const PlantSettings& settings,
+                                                 EquationsShelf* shelf = nullptr);
 
 /// The simulated hardware: constraint-reduced forward dynamics, a torque held from command to command (or
 /// continuous), dead time and saturation; drives, sensors and faults where settings ask for them. It knows

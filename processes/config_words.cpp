@@ -14,6 +14,10 @@ std::string words_of(const Path& path) {
   double duration = 0;
   for (const auto& via : path.vias) duration += via.duration + via.dwell;
   if (path.vias.empty()) return "none";
+  if (path.is_of_motors())
+    return fmt::format("motors [{:g}] to [{:g}] in {:g} s over {} points",
+                       fmt::join(path.vias.front().motors, ", "), fmt::join(path.vias.back().motors, ", "),
+                       duration, path.vias.size());
   return fmt::format("{} to {} m in {:g} s over {} points", point(path.vias.front().point),
                      point(path.vias.back().point), duration, path.vias.size());
 }

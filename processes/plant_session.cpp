@@ -33,7 +33,9 @@ PlantSession::PlantSession(const PlantLine& line, const Experiment& experiment, 
 Ending PlantSession::run(Bus& bus, const StopSwitch& stop, std::int64_t session, std::int64_t next_session) {
   say_complaint(run_.plant().equations().complaint());
   if (!run_.begin())
-    throw RunFault("diverged", "the start is already farther from the path than limits.position_error");
+    throw RunFault(
+        "diverged",
+        "the start is already farther from the path than limits.position_error or limits.motor_error");
   return line_.real_time ? run_as<RealTimePlant, RealTimeHardware>(bus, stop, session, next_session)
                          : run_as<LockstepPlant, LockstepHardware>(bus, stop, session, next_session);
 }

@@ -113,6 +113,9 @@ void fields(const Way& f, M& m) {
     g("final_position_error", m.final_position_error);
     g("rms_position_error", m.rms_position_error);
   });
+  f.where("max_orientation_error", m.is_oriented,
+          [&](const Way& g) { g("max_orientation_error", m.max_orientation_error); });
+  f("max_motor_error", m.max_motor_error);
   f("final_psi", m.final_psi);
   f("energy_drift", m.energy_drift);
   f("max_torque", m.max_torque);
@@ -212,6 +215,21 @@ void fields(const Way& f, B& bus) {
   f("joined_late", bus.joined_late);
 }
 
+template <class Way, IsA<SweepFigures::Figure> F>
+void fields(const Way& f, F& figure) {
+  f("name", figure.name);
+  f("unit", figure.unit);
+  f("value", figure.value);
+}
+
+template <class Way, IsA<SweepFigures> S>
+void fields(const Way& f, S& sweep) {
+  f("runs", sweep.runs);
+  f("done", sweep.done);
+  f("wall_time", sweep.wall_time);
+  f("figures", sweep.figures);
+}
+
 template <class Way, IsA<Result::Log> L>
 void fields(const Way& f, L& log) {
   f("file", log.file);
@@ -254,6 +272,12 @@ nlohmann::json json_of(const Result& result) {
   const Keys f(out);
   if (result.run) {
     fields(f, result);
+  } else if (result.sweep) {
+    f("experiment", result.experiment);
+    f("verdict", result.judged.verdict);
+    f("missed", result.judged.missed);
+    f("exit_status", result.judged.exit_status);
+    f("sweep", result.sweep);
   } else if (result.error) {
     f("experiment", result.experiment);
     f("error", result.error);

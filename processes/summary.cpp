@@ -12,18 +12,24 @@
 namespace mixloop {
 namespace {
 
+/// What a run has diverged by, beside what is not finite.
+std::string watched(const Experiment& experiment) {
+  std::string text;
+  if (experiment.has_path() && experiment.scene->end_effector.named)
+    text += fmt::format("the position error passed {:.6g} mm or ", experiment.position_error_limit * 1e3);
+  if (!experiment.limits.motor_error.empty()) text += "a motor's error passed limits.motor_error or ";
+  return text;
+}
+
 std::string endings(const Experiment& experiment, const Result& result) {
   const Measures& measures = result.run->measures;
   std::string text;
   if (measures.no_way_on)
     text += fmt::format("  ended at {:.6g} s: {}\n", *measures.diverged_at, *measures.no_way_on);
   else if (measures.diverged_at)
-    text += fmt::format(
-        "  diverged at {:.6g} s: {}a value was not finite; nothing of that tick was published\n",
-        *measures.diverged_at,
-        experiment.has_path()
-            ? fmt::format("the position error passed {:.6g} mm or ", experiment.position_error_limit * 1e3)
-            : "");
+    text +=
+        fmt::format("  diverged at {:.6g} s: {}a value was not finite; nothing of that tick was published\n",
+                    *measures.diverged_at, watched(experiment));
   if (measures.safe_at) {
     const bool caused = result.bus && result.bus->deadlines && result.bus->deadlines->safe_cause;
     text += fmt::format("  safe state from {:.6g} s on{}; what follows is judged up to there\n",
@@ -42,13 +48,13 @@ std::string position_error(const Measures& measures) {
                      mm(measures.rms_position_error));
 }
 
-std::string final_psi(const Scene& scene, const Vector& psi) {
+/// A position of each coordinate, or how far it is off.
+std::string positions(std::span<const Scene::Independent> coordinates, const Vector& psi) {
   if (psi.hasNaN()) return "never measured: no tick was judged";
   std::string text;
-  for (std::size_t i = 0; i < scene.independent.size(); ++i)
-    text +=
-        fmt::format("{}{} {} {}", i > 0 ? ", " : "", scene.independent[i].name,
-                    fixed(psi[static_cast<Eigen::Index>(i)], 9), position_unit(scene.independent[i].linear));
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    text += fmt::format("{}{} {} {}", i > 0 ? ", " : "", coordinates[i].name,
+                        fixed(psi[static_cast<Eigen::Index>(i)], 9), position_unit(coordinates[i].linear));
   return text;
 }
 
@@ -102,10 +108,15 @@ std::string summary(const Experiment& experiment, const Result& result) {
   const Measures& measures = run.measures;
   text += endings(experiment, result);
   if (measures.follows_path) text += "  position error   " + position_error(measures) + "\n";
+  if (measures.is_oriented)
+    text += fmt::format("  orientation      off by {:.4g} rad at most\n", measures.max_orientation_error);
+  if (measures.max_motor_error)
+    text += "  motor errors     " + positions(experiment.scene->motors(), *measures.max_motor_error) + "\n";
   if (measures.final_psi)
-    text += "  final position   " + final_psi(*experiment.scene, *measures.final_psi) + "\n";
+    text += "  final position   " + positions(experiment.scene->independent, *measures.final_psi) + "\n";
   if (measures.energy_drift) text += "  energy drift     " + energy_drift(*measures.energy_drift) + "\n";
-  text += fmt::format("  max {:<13}", all_linear(run) ? "force" : "torque") + max_torque(run) + "\n";
+  if (measures.max_torque.size() > 0)
+    text += fmt::format("  max {:<13}", all_linear(run) ? "force" : "torque") + max_torque(run) + "\n";
   text += fmt::format("  {} ticks at {:g} Hz by {} in {:.3f} s ({})\n", measures.ticks, experiment.rate_hz,
                       run.route, run.wall_time, run.evaluation);
   if (run.integrator.chosen) text += "  integrator       " + run.integrator.chosen->why + "\n";

@@ -20,7 +20,7 @@ constexpr std::int32_t kMostMotors = 1000;
 constexpr std::int64_t kFarthestJump = 100'000;  // ticks: past it a tick can't be
 
 bool sound(const Header& header) {
-  return header.n >= 1 && header.n <= kMostMotors && header.session != 0 && header.seq >= 0;
+  return header.n >= 0 && header.n <= kMostMotors && header.session != 0 && header.seq >= 0;
 }
 
 /// The rate that gives `utime` = floor(seq / rate): a round one where it fits.
@@ -184,7 +184,7 @@ class SessionReader {
       last_psi_ = tick.psi;
       if (std::isnan(tick.work)) tick.work = work_;
     }
-    if (!std::isnan(tick.tau_applied[0])) last_tau_ = tick.tau_applied;
+    if (!tick.tau_applied.empty() && !std::isnan(tick.tau_applied[0])) last_tau_ = tick.tau_applied;
   }
 
   const LogSession& session_;

@@ -67,7 +67,9 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& file) : file_(fi
     return count;
   };
   sizes_ = {.n = columns("psi"), .n_u = columns("tau")};
-  if (sizes_.n_u == 0) sizes_.n_u = sizes_.n;
+  const bool has_torques =
+      std::ranges::any_of(names_, [](const auto& name) { return name.starts_with("tau_"); });
+  if (sizes_.n_u == 0 && has_torques) sizes_.n_u = sizes_.n;
   if (names_.front() == "t" && sizes_.n > 0) return;
   const InputError error("not_a_trajectory", {file.string(), 1},
                          "no header that begins with t,psi_1; expected the trajectory.csv that --out keeps");

@@ -26,6 +26,26 @@ Skeleton::Skeleton(std::shared_ptr<const Scene> scene, std::span<const double> p
   joints_ = joints_of_motors(poses);
   for (const auto& frame : poses[0].frames) at_home_.push_back(frame.col(3));
   place(scene_->home, 0);
+  extent_ = reached();
+}
+
+// By centres of mass, solids and the end effector: a mechanism's frames may all lie in one point.
+std::vector<Eigen::Vector3d> Skeleton::reached() const {
+  std::vector<Eigen::Vector3d> places;
+  const auto add = [&](int frame, const Eigen::Vector3d& point) {
+    places.push_back(at_point<double>(ws_.frames[static_cast<std::size_t>(frame)].T_0, point));
+  };
+  for (const auto& body : model_.bodies) add(body.frame, body.center_of_mass);
+  for (const Scene::Solid& solid : scene_->solids) {
+    const Eigen::Vector3d around =
+        solid.shape == Scene::Solid::Shape::box
+            ? Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(solid.size.data()) / 2)
+            : Eigen::Vector3d(Eigen::Vector3d::Constant(solid.radius));
+    add(solid.frame, Eigen::Map<const Eigen::Vector3d>(solid.from.data()) - around);
+    add(solid.frame, Eigen::Map<const Eigen::Vector3d>(solid.to.data()) + around);
+  }
+  if (scene_->end_effector.named) places.push_back(end_effector());
+  return places;
 }
 
 void Skeleton::place(std::span<const double> psi, double t) {
@@ -158,6 +178,8 @@ nlohmann::json Skeleton::description() const {
   for (std::size_t i = 0; i < joints_.size(); ++i)
     motors.push_back(
         {{"name", scene_->motors()[i].name}, {"linear", scene_->motors()[i].linear}, {"joint", joints_[i]}});
+  json extent = json::array();
+  for (const auto& place : extent_) extent.push_back(list(place));
   for (const auto& closure : closures_) closures.push_back({{"leaf", closure.leaf}, {"on", closure.on}});
   return {
       {"name", scene_->name},
@@ -166,6 +188,7 @@ nlohmann::json Skeleton::description() const {
       {"motors", motors},
       {"closures", closures},
       {"solids", solids},
+      {"extent", extent},
       {"gravity", list(model_.gravity)},
       {"end_effector", {{"frame", scene_->end_effector.frame}, {"point", list(model_.end_effector_point)}}}};
 }

@@ -30,7 +30,8 @@ class Skeleton {
   /// What never moves, as the page reads it: frames (name, empty of those amid a pose, parent, joint's
   /// coordinate, prismatic, its origin at home), bodies (name, frame, mass, center_of_mass), motors (name,
   /// linear, joint: the frame at whose joint its torque is shown), closures (see closures()), solids (frame,
-  /// shape, size, radius, from, to: see Scene::Solid), end_effector {frame, point}.
+  /// shape, size, radius, from, to: see Scene::Solid), extent (places at home, ground axes: how far what is
+  /// drawn beside frames reaches), end_effector {frame, point}.
   nlohmann::json description() const;
 
   /// Where a branch of the tree ends on another body: frame `leaf`'s origin stands still in frame `on`.
@@ -44,6 +45,7 @@ class Skeleton {
     std::vector<Mat34<double>> frames;  ///< to frame 0, m
     Mat<double> C;                      ///< m x n
   };
+  std::vector<Eigen::Vector3d> reached() const;
   std::vector<Posture> some_poses();
   std::vector<Closure> find_closures(const std::vector<Posture>& poses) const;
   std::vector<int> joints_of_motors(const std::vector<Posture>& poses) const;
@@ -54,6 +56,7 @@ class Skeleton {
   std::vector<Closure> closures_;
   std::vector<int> joints_;               ///< of each motor: a frame, or -1
   std::vector<Eigen::Vector3d> at_home_;  ///< frames' origins, m
+  std::vector<Eigen::Vector3d> extent_;   ///< what else is drawn at home reaches so far, m
 };
 
 }  // namespace mixloop

@@ -11,7 +11,7 @@ namespace mixloop {
 SessionJudge::SessionJudge(const Experiment& experiment, const Plan& plan)
     : experiment_(experiment),
       plan_(plan),
-      recorder_(experiment, plan, false),
+      recorder_(experiment, plan, {.knows_work = false}),
       config_(config_of(common_ground(experiment))),
       states_(experiment.scene->n()),
       commands_(experiment.scene->n_u()),

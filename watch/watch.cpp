@@ -67,7 +67,7 @@ void Watch::take(Channel channel, Bytes bytes, Instant at) {
 /// Hands the message on where it is sound and of the run that is watched.
 template <class Message>
 bool Watch::hear(const Message& message, ChannelCount& count, Instant at) {
-  if (message.n < 1 || !is_finite(message)) return false;
+  if (message.n < 0 || !is_finite(message)) return false;
   if constexpr (std::is_same_v<Message, state_t>)
     if (session_.would_follow(message.session, at) && session_.follow(message.session, {}, at))
       begin(message);

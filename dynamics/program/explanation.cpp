@@ -77,6 +77,7 @@ Explanation explain(const std::shared_ptr<const Scene>& scene) {
   const std::string hindrance = MachineCode::hindrance();
   std::vector<std::string> of_length;
   for (Purpose purpose : kPurposes) {
+    if (output_size(purpose, scene->n(), scene->n_u()) == 0) continue;  // M a of a scene without motors
     const TracedProgram traced = trace(scene, purpose);
     const OperationCount as_written = literal.of(purpose);
     const auto& quantity = explanation.quantities.emplace_back(Explanation::Quantity{

@@ -80,7 +80,7 @@ std::string firmware_source(const std::shared_ptr<const Scene>& scene, const std
     style.prefix = prefix_of(purpose);
     style.trigonometry = trigonometry;
     const TracedProgram traced = trace(scene, purpose);
-    if (traced.program.outputs.empty())
+    if (traced.program.outputs.empty() && output_size(purpose, scene->n(), scene->n_u()) > 0)
       throw InputError("too_large", {scene->name},
                        fmt::format("{} takes more operations than a program may; expected fewer coordinates, "
                                    "transforms or bodies",

@@ -70,7 +70,7 @@ class Writer {
   }
 
   static constexpr const char* kTakes =
-      "const Real* psi, const Real* psid, const Real* input, Real t, const double* k, Real* ";
+      "const Real* psi, const Real* psid, const Real* input, Real t, const K* k, Real* ";
 
   void evaluation() {
     for (std::size_t i = 0; i < hoisted_.size(); ++i) name_[hoisted_[i]] = fmt::format("k[{}]", i);
@@ -79,11 +79,12 @@ class Writer {
     const std::vector<Statement> steps = statements_.of(Stage::run);
     line("namespace {{");
     const std::size_t parts = steps.size() <= kMostSteps ? 0 : write_parts(steps);
-    line("template <class Real>\ninline void {}_run({}out) {{", style_.prefix, kTakes);
+    line("template <class Real, class K>\nMIXLOOP_FUNCTION inline void {}_run({}out) {{", style_.prefix,
+         kTakes);
     line("  (void)psi, (void)psid, (void)input, (void)t, (void)k;");
     if (parts > 0) line("  Real w[{}];", slots_);
     for (std::size_t i = 0; i < parts; ++i)
-      line("  {}_part_{}<Real>(psi, psid, input, t, k, w);", style_.prefix, i);
+      line("  {}_part_{}<Real, K>(psi, psid, input, t, k, w);", style_.prefix, i);
     if (parts == 0)
       for (const Statement& step : steps) write(step, "Real");
     for (std::size_t i = 0; i < program_.outputs.size(); ++i)
@@ -102,7 +103,8 @@ class Writer {
     std::vector<std::vector<std::size_t>> freed(count + 1);
     std::vector<std::size_t> idle;
     for (std::size_t part = 0; part < count; ++part) {
-      line("template <class Real>\nMIXLOOP_PART void {}_part_{}({}w) {{", style_.prefix, part, kTakes);
+      line("template <class Real, class K>\nMIXLOOP_PART void {}_part_{}({}w) {{", style_.prefix, part,
+           kTakes);
       line("  (void)psi, (void)psid, (void)input, (void)t, (void)k;");
       const auto from = steps.begin() + static_cast<std::ptrdiff_t>(part * kMostSteps);
       const auto to = part + 1 == count ? steps.end() : from + static_cast<std::ptrdiff_t>(kMostSteps);
@@ -132,9 +134,10 @@ class Writer {
   }
 
   void exports() {
+    if (!style_.exported) return;
     line(
         "extern \"C\" void {0}(const double* psi, const double* psid, const double* input, double t, "
-        "const double* k, double* out) {{\n  {0}_run<double>(psi, psid, input, t, k, out);\n}}",
+        "const double* k, double* out) {{\n  {0}_run<double, double>(psi, psid, input, t, k, out);\n}}",
         style_.prefix);
     if (!style_.lanes) return;
     for (int lanes : {4, 8}) export_lanes(lanes);
@@ -159,8 +162,8 @@ class Writer {
       line("  const Real {0}_in[] = {{{1}}};\n  (void){0};", name, used > 0 ? loads : "Real()");
       arguments += fmt::format("{}_in{}, ", name, block == Block::time ? "[0]" : "");
     }
-    line("  Real results[{}];\n  {}_run<Real>({}k, results);", program_.outputs.size(), style_.prefix,
-         arguments);
+    line("  Real results[{}];\n  {}_run<Real, double>({}k, results);",
+         std::max<std::size_t>(program_.outputs.size(), 1), style_.prefix, arguments);
     for (std::size_t i = 0; i < program_.outputs.size(); ++i) line("  ((Loose*)out)[{0}] = results[{0}];", i);
     line("}}");
   }
@@ -287,13 +290,13 @@ MIXLOOP_INLINE void sincos_of_affine(const double (&q)[kTerms], const double (&f
 )";
 
 constexpr const char* kFunctions = R"(
-#if defined(__GNUC__)
+#if defined(MIXLOOP_VECTORS)
 #define MIXLOOP_PART inline __attribute__((noinline))
 #else
-#define MIXLOOP_PART inline
+#define MIXLOOP_PART MIXLOOP_FUNCTION inline
 #endif
 namespace mixloop_functions {
-inline double root(double x) { return sqrt(x); }
+MIXLOOP_INLINE double root(double x) { return sqrt(x); }
 }  // namespace mixloop_functions
 )";
 

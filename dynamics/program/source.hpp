@@ -18,6 +18,8 @@ struct SourceStyle {
   std::string prefix = "mixloop";  ///< of the exported names; letters, digits and _
   Trigonometry trigonometry = Trigonometry::inlined;
   bool lanes = false;  ///< also evaluations on 4 and 8 states at once (GCC's vectors)
+  bool exported =
+      true;  ///< else PREFIX_run<Real, K> alone, a template on numbers and on what the set-up left
 };
 
 /// The head of an emitted file: what it needs, and sine and cosine.

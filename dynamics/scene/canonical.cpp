@@ -90,6 +90,10 @@ std::string canonical_text(const Scene& scene) {
     text += fmt::format("end effector {} {}\n", scene.end_effector.frame,
                         fmt::join(scene.end_effector.axes, " "));
     add(text, scene.end_effector.point);
+    if (!scene.end_effector.turns.empty())
+      text += fmt::format("turns about {}\n", fmt::join(scene.end_effector.turns, " "));
+    if (const auto& direction = scene.end_effector.direction)
+      text += fmt::format("points along {:a} {:a} {:a}\n", (*direction)[0], (*direction)[1], (*direction)[2]);
   } else {
     text += "no end effector\n";
   }

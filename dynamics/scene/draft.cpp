@@ -5,6 +5,7 @@
 
 #include "notation/nearest.hpp"
 #include "notation/utf8.hpp"
+#include "notation/value.hpp"
 
 namespace mixloop {
 
@@ -41,6 +42,23 @@ std::array<Formula, 3> SceneDraft::vector(const NodePtr& node, const Dimension& 
                      "found " + describe(*node) + "; expected " + what + " as [x, y, z]");
   const auto part = [&](std::size_t i) { return formula(*node->items[i], wanted, what, scope); };
   return {part(0), part(1), part(2)};
+}
+
+std::array<double, 3> SceneDraft::axis(const NodePtr& node, const std::string& what) {
+  std::array<double, 3> numbers{};
+  if (node->kind == Node::Kind::scalar) {
+    numbers[word_of(*node, {"x", "y", "z"}, what)] = 1;
+    return numbers;
+  }
+  const auto parts = vector(node, kPure, what + " x, y, z, or a vector", fixed);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!parts[i].is_constant())
+      throw InputError("varying_number", parts[i].place, "an axis depends on no parameter; expected numbers");
+    numbers[i] = parts[i].constant();
+  }
+  if (numbers == std::array<double, 3>{})
+    throw InputError("out_of_range", node->place, what + " is [0, 0, 0]; expected a direction");
+  return numbers;
 }
 
 int SceneDraft::frame(const Mapping& entry) const { return frame_named(*entry.at("frame"), entry.what()); }

@@ -31,6 +31,8 @@ struct SceneDraft {
   /// Three of them, or zeros where the node is null.
   std::array<Formula, 3> vector(const NodePtr& node, const Dimension& wanted, const std::string& what,
                                 const Scope& scope);
+  /// An axis, as x, y or z or as constant numbers, not all of them zero; of any length.
+  std::array<double, 3> axis(const NodePtr& node, const std::string& what);
   /// The frame that the entry names under `frame`.
   int frame(const Mapping& entry) const;
   /// The frame of this name; `what` sits on it.

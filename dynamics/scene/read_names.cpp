@@ -169,8 +169,14 @@ void read_constants(const Mapping& root, SceneDraft& draft) {
 void read_independent(const Mapping& root, SceneDraft& draft) {
   draft.moving = draft.fixed;
   draft.moving.define_symbol("t", Symbols::kTime, kTime, {});
-  add_independent(root.at("motors"), true, draft);
-  if (const NodePtr free = root.find("free")) add_independent(free, false, draft);
+  const NodePtr motors = root.find("motors"), free = root.find("free");
+  if (!motors && !free)
+    throw InputError(
+        "missing_key", root.node().place,
+        "the scene has neither 'motors' nor 'free' coordinates, so that nothing moves; expected one of "
+        "them, or both");
+  if (motors) add_independent(motors, true, draft);
+  if (free) add_independent(free, false, draft);
 }
 
 void read_constraints(const Mapping& root, SceneDraft& draft) {

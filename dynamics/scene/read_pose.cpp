@@ -38,17 +38,7 @@ JointAxis axis_along(double x, double y, double z) {
 
 JointAxis read_axis(const NodePtr& node, SceneDraft& draft) {
   if (!node) return {};
-  if (node->kind == Node::Kind::scalar) {
-    const std::size_t axis = word_of(*node, {"x", "y", "z"}, "the axis");
-    return axis_along(axis == 0, axis == 1, axis == 2);
-  }
-  const auto parts = draft.vector(node, kPure, "the axis x, y, z, or a vector", draft.fixed);
-  for (const Formula& part : parts)
-    if (!part.is_constant())
-      throw InputError("varying_number", part.place, "an axis depends on no parameter; expected numbers");
-  const double x = parts[0].constant(), y = parts[1].constant(), z = parts[2].constant();
-  if (x == 0 && y == 0 && z == 0)
-    throw InputError("out_of_range", node->place, "the axis is [0, 0, 0]; expected a direction");
+  const auto [x, y, z] = draft.axis(node, "the axis");
   return axis_along(x, y, z);
 }
 

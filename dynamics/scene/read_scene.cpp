@@ -2,6 +2,7 @@
 #include "dynamics/scene/read_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "dynamics/scene/draft.hpp"
@@ -18,6 +19,38 @@ void read_name(const Mapping& root, Scene& scene) {
                     : printable_name(std::filesystem::path(root.node().place.file).stem().string());
 }
 
+const std::vector<std::string>& prescribed_words() {
+  static const std::vector<std::string> words{"x", "y", "z", "rx", "ry", "rz"};
+  return words;
+}
+
+/// What a path says of the end effector: of its place, then of how it is turned.
+void read_prescribed(const NodePtr& node, Scene::EndEffector& end_effector) {
+  end_effector.axes.clear();
+  for (const auto& item : items_within(node, 1, 6, "axes out of x, y, z, rx, ry, rz")) {
+    const int word = static_cast<int>(word_of(*item, prescribed_words(), "an axis"));
+    std::vector<int>& list = word < 3 ? end_effector.axes : end_effector.turns;
+    if (std::ranges::count(list, word % 3) > 0)
+      throw InputError("doubly_defined", item->place, "the axis '" + item->text + "' is given twice");
+    if (word < 3 && !end_effector.turns.empty())
+      throw InputError(
+          "out_of_range", item->place,
+          "the axis '" + item->text + "' after those of turning; expected x, y, z before rx, ry, rz");
+    list.push_back(word % 3);
+  }
+  if (end_effector.axes.empty())
+    throw InputError(
+        "out_of_range", node->place,
+        "the axes prescribe how the end effector is turned, and not where it is; expected at least "
+        "one of x, y, z");
+  const auto& turns = end_effector.turns;
+  if (turns.size() == 2 || (turns.size() == 3 && !std::ranges::is_sorted(turns)))
+    throw InputError(
+        "out_of_range", node->place,
+        "the end effector is turned by roll, pitch and yaw; expected rx, ry, rz in this order, one of "
+        "them alone for what turns about that axis only, or 'direction' for where it points");
+}
+
 void read_end_effector(const Mapping& root, SceneDraft& draft) {
   auto& end_effector = draft.scene.end_effector;
   const NodePtr node = root.find("end_effector");
@@ -29,14 +62,15 @@ void read_end_effector(const Mapping& root, SceneDraft& draft) {
   const Mapping entry = read_mapping(node, end_effector_keys());
   end_effector.frame = draft.frame(entry);
   end_effector.point = draft.vector(entry.find("point"), kLength, "the end effector's point", draft.fixed);
-  const NodePtr axes = entry.find("axes");
-  if (!axes) return;
-  end_effector.axes.clear();
-  for (const auto& item : items_within(axes, 1, 3, "axes out of x, y, z")) {
-    const int axis = static_cast<int>(word_of(*item, {"x", "y", "z"}, "an axis"));
-    if (std::find(end_effector.axes.begin(), end_effector.axes.end(), axis) != end_effector.axes.end())
-      throw InputError("doubly_defined", item->place, "the axis '" + item->text + "' is given twice");
-    end_effector.axes.push_back(axis);
+  if (const NodePtr axes = entry.find("axes")) read_prescribed(axes, end_effector);
+  if (const NodePtr direction = entry.find("direction")) {
+    if (!end_effector.turns.empty())
+      throw InputError("doubly_defined", direction->place,
+                       "the axes prescribe how the end effector is turned, and 'direction' where it points; "
+                       "expected one of them");
+    auto [x, y, z] = draft.axis(direction, "the end effector's direction");
+    const double length = std::sqrt(x * x + y * y + z * z);
+    end_effector.direction = {x / length, y / length, z / length};
   }
 }
 
@@ -91,7 +125,8 @@ const Keys& end_effector_keys() {
   static const Keys keys{"the end effector",
                          {{"frame", form::text(), kRequired},
                           {"point", form::numbers()},
-                          {"axes", form::list(form::word({"x", "y", "z"}))}}};
+                          {"axes", form::list(form::word(prescribed_words()))},
+                          {"direction", form::one_of({form::word({"x", "y", "z"}), form::numbers()})}}};
   return keys;
 }
 
@@ -105,7 +140,7 @@ const Keys& scene_keys() {
       {{"name", text()},
        {"constants", named(number())},
        {"parameters", named(number())},
-       {"motors", names(), kRequired},
+       {"motors", names()},
        {"free", names()},
        {"coordinates", list(name())},
        {"constraints", named(number())},

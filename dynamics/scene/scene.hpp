@@ -160,6 +160,10 @@ struct Scene {
     int frame = 0;
     std::array<Formula, 3> point;
     std::vector<int> axes = {0, 1, 2};  ///< which of x, y, z a path prescribes
+    std::vector<int> turns;  ///< and about which of them: all, as roll, pitch and yaw, or one alone
+    /// Or where this axis of the frame, of length 1, points.
+    std::optional<std::array<double, 3>> direction;
+    bool is_oriented() const { return direction || !turns.empty(); }
   };
 
   /// A quantity that no path may take through zero, e.g. sin(q4) for a parallelogram.

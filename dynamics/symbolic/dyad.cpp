@@ -11,8 +11,6 @@ namespace {
 
 using E = Expression;
 
-bool is_zero(const E& x) { return x.is_number() && x.number() == 0.0; }
-
 Planar direction_of(const E& angle) { return {cos(angle), sin(angle)}; }
 
 /// w / u for a vector u of given squared length: of one along x a quotient of numbers.

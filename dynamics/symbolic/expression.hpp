@@ -70,6 +70,8 @@ inline const Expression& real(const Expression& x) { return x; }
 inline Expression imag(const Expression&) { return 0.0; }
 inline Expression abs2(const Expression& x) { return x * x; }
 inline bool isfinite(const Expression&) { return true; }
+/// Whether it is known to be nothing.
+inline bool is_zero(const Expression& x) { return x.is_number() && x.number() == 0.0; }
 
 /// While it lives, this thread's expressions are recorded on the graph.
 class Recording {

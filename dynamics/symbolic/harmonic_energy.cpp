@@ -92,7 +92,8 @@ class EnergyMaker {
       for (auto& x : row) x *= DoubleDouble(link.scale.number());
       rows.push_back(row);
     }
-    if (!rational_base(rows)) irrational_base(rows);
+    is_rational_ = rational_base(rows);
+    if (!is_rational_) irrational_base(rows);
     return made_.space.angles.size() <= kMostBaseAngles;
   }
 
@@ -124,13 +125,8 @@ class EnergyMaker {
   Angle angle_of(const Row& row) const {
     Angle angle{};
     const auto& base = made_.space.angles;
-    const auto same = std::find(base.begin(), base.end(), row);
-    const bool diagonal = base.size() == static_cast<std::size_t>(n_) &&
-                          std::all_of(base.begin(), base.end(), [&](const Row& b) {
-                            return std::count(b.begin(), b.end(), 0.0) == n_ - 1;
-                          });
-    if (!diagonal) {
-      angle[static_cast<std::size_t>(same - base.begin())] = 1;
+    if (!is_rational_) {
+      angle[static_cast<std::size_t>(std::find(base.begin(), base.end(), row) - base.begin())] = 1;
       return angle;
     }
     for (std::size_t k = 0; k < row.size(); ++k) {
@@ -312,6 +308,7 @@ class EnergyMaker {
   std::vector<Affine> coordinates_;
   std::vector<Matrix34> frames_;
   HarmonicEnergy made_;
+  bool is_rational_ = true;  ///< the base angles are fractions of psi's elements
 };
 
 }  // namespace

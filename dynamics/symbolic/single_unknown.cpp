@@ -11,8 +11,6 @@ namespace {
 
 using E = Expression;
 
-bool is_zero(const E& x) { return x.is_number() && x.number() == 0.0; }
-
 /// Numbers but for their rounding, or one node.
 bool are_equal(const E& x, const E& y) {
   if (x.is_number() != y.is_number()) return false;

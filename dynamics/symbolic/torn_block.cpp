@@ -17,8 +17,6 @@ namespace {
 
 using E = Expression;
 
-bool is_zero(const E& x) { return x.is_number() && x.number() == 0.0; }
-
 /// A link that turns alone: unknown `j`, its vector u, all that it turns by, and the loop's other vectors.
 struct Link {
   int unknown = -1;

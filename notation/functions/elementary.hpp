@@ -24,7 +24,7 @@ MIXLOOP_INLINE double power_of_two(int k) {
 }
 
 /// Error below 0.9 units in the last place, of results below 2^-1021 half a unit more.
-[[maybe_unused]] static double exp(double x) {
+[[maybe_unused]] MIXLOOP_FUNCTION static double exp(double x) {
   if (!(x < 710.0)) return x - x == 0 ? HUGE_VAL : x;
   if (x < -746.0) return 0.0;
   // x = k log 2 + r, |r| <= log(2) / 2.
@@ -47,7 +47,7 @@ MIXLOOP_INLINE double power_of_two(int k) {
 }
 
 /// Error below 0.7 units in the last place.
-[[maybe_unused]] static double log(double x) {
+[[maybe_unused]] MIXLOOP_FUNCTION static double log(double x) {
   if (!(x > 0)) return x == 0 ? -HUGE_VAL : (x - x) / 0.0;
   if (!(x < HUGE_VAL)) return x;
   int k = -1023;
@@ -74,7 +74,7 @@ MIXLOOP_INLINE double power_of_two(int k) {
 }
 
 /// Error below 1 unit in the last place.
-[[maybe_unused]] static double atan2(double y, double x) {
+[[maybe_unused]] MIXLOOP_FUNCTION static double atan2(double y, double x) {
   // atan(i / 8), and what a double leaves of it.
   static const double kAngle[9][2] = {{0x0p+0, 0x0p+0},
                                       {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},

@@ -6,22 +6,32 @@
 
 #include <math.h>
 
-// Inlined whatever its size: a call would take a good part of the time.
-#if defined(__GNUC__)
+// Inlined whatever its size: a call would take a good part of the time. A graphics processor's compiler has
+// the same functions on either side, and no vectors.
+#if defined(__CUDACC__)
+#define MIXLOOP_FUNCTION __host__ __device__
+#define MIXLOOP_INLINE __host__ __device__ __forceinline__
+#elif defined(__GNUC__)
+#define MIXLOOP_VECTORS
+#define MIXLOOP_FUNCTION
 #define MIXLOOP_INLINE inline __attribute__((always_inline))
 #else
+#define MIXLOOP_FUNCTION
 #define MIXLOOP_INLINE inline
 #endif
 
 namespace mixloop_functions {
 
-/// A number, or a vector of it.
-template <class Real>
-MIXLOOP_INLINE Real lift(double x) {
-  return x - Real();
+/// A number, or a vector of it; of a vector itself.
+template <class Real, class Number>
+MIXLOOP_INLINE Real lift(Number x) {
+  if constexpr (sizeof(Number) == sizeof(Real))
+    return x;
+  else
+    return x - Real();
 }
 
-#if defined(__GNUC__)
+#if defined(MIXLOOP_VECTORS)
 
 MIXLOOP_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
 
@@ -41,7 +51,7 @@ MIXLOOP_INLINE Real fma(const Real& a, const Real& b, const Real& c) {
 
 #else
 
-inline double fma(double a, double b, double c) { return ::fma(a, b, c); }
+MIXLOOP_INLINE double fma(double a, double b, double c) { return ::fma(a, b, c); }
 
 #endif
 

@@ -65,10 +65,10 @@ MIXLOOP_INLINE void to_quadrant(const Bits& quadrant, Bits& sine, Bits& cosine) 
 
 // Of angles from kLimit on: 2/pi's bits that matter times the angle's (Payne and Hanek), in whole numbers.
 // Gives the quadrant; of what is no number nothing.
-#if defined(__GNUC__)
+#if defined(MIXLOOP_VECTORS)
 [[maybe_unused, gnu::noinline, gnu::cold]]
 #endif
-static uint64_t
+MIXLOOP_FUNCTION static uint64_t
 reduce_large(double x, double* r) {
   static const uint32_t kBits[40] = {
       0xA2F9836E, 0x4E441529, 0xFC2757D1, 0xF534DDC0, 0xDB629599, 0x3C439041, 0xFE5163AB, 0xDEBBC561,
@@ -163,7 +163,7 @@ inline double cos(double x) {
   return cosine;
 }
 
-#if defined(__GNUC__)
+#if defined(MIXLOOP_VECTORS)
 
 // The same of GCC's and clang's vectors, for angles below kLimit.
 template <class Bits, class Real>
@@ -255,14 +255,14 @@ MIXLOOP_INLINE void sincos_of_affine(const double (&q)[kTerms], const double (&f
 #else
 
 template <int kCount>
-inline void sincos_of(const double (&x)[kCount], double (&sine)[kCount], double (&cosine)[kCount]) {
+MIXLOOP_INLINE void sincos_of(const double (&x)[kCount], double (&sine)[kCount], double (&cosine)[kCount]) {
   for (int i = 0; i < kCount; ++i) sincos(x[i], sine + i, cosine + i);
 }
 
 template <int kTerms, int kCount>
-inline void sincos_of_affine(const double (&q)[kTerms], const double (&factor)[kTerms][kCount],
-                             const double (&constant)[kCount], double (&sine)[kCount],
-                             double (&cosine)[kCount]) {
+MIXLOOP_INLINE void sincos_of_affine(const double (&q)[kTerms], const double (&factor)[kTerms][kCount],
+                                     const double (&constant)[kCount], double (&sine)[kCount],
+                                     double (&cosine)[kCount]) {
   for (int i = 0; i < kCount; ++i) {
     double x = constant[i];
     for (int k = 0; k < kTerms; ++k) x = fma(q[k], factor[k][i], x);

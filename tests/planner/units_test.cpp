@@ -117,7 +117,7 @@ home: {{b: 90 deg}}
   ASSERT_EQ(ik.position_from_home({length, length, 0}, 0, psi), IkOutcome::solved);
   EXPECT_NEAR(psi[1], std::numbers::pi / 2, 1e-14);
   EXPECT_EQ(ik.position_from_home({2.001 * length, 0, 0}, 0, psi), IkOutcome::out_of_reach);
-  SingularityMeasures measures(model, ik.motor_scale());
+  SingularityMeasures measures(model, ik.motor_scale(), std::vector<int>{});
   double value = 0;
   measures.evaluate(Eigen::Vector2d(0, std::numbers::pi / 2), 0, &value);
   EXPECT_NEAR(value, 1, 1e-14);
@@ -147,7 +147,7 @@ home: {b: 90 deg}
 singularities: {area: 1e-18 m^2 * cos(qb - 30 deg)}
 )";
   const auto model = model_from(scene);
-  SingularityMeasures measures(model, Vector::Ones(2));
+  SingularityMeasures measures(model, Vector::Ones(2), std::vector<int>{});
   EXPECT_TRUE(measures.on_home_branch(Eigen::Vector2d(0, 1), 0));
   EXPECT_FALSE(measures.on_home_branch(Eigen::Vector2d(0, 2.5), 0)) << "past 120 deg its cosine is negative";
 }

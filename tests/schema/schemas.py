@@ -19,7 +19,7 @@ import tempfile
 import jsonschema
 import yaml
 
-COMMAND = {"scene": "explain", "experiment": "simulate"}
+COMMAND = {"scene": "explain", "experiment": "simulate", "sweep": "sweep"}
 
 
 class Loader(yaml.SafeLoader):
@@ -58,6 +58,7 @@ SECTIONS = {
     "the path": ("experiments.md", "path"),
     "the line": ("experiments.md", "path"),
     "a via point": ("experiments.md", "path"),
+    "a point of the motors": ("experiments.md", "path"),
     "the controller": ("experiments.md", "controller"),
     "the state to feed back about": ("experiments.md", "controller"),
     "the controller's safety": ("hil.md", None),
@@ -70,6 +71,8 @@ SECTIONS = {
     "the limits": ("experiments.md", "limits and expect"),
     "what is expected": ("experiments.md", "limits and expect"),
     "a fault": ("experiments.md", "faults"),
+    "the sweep": ("sweeps.md", "The file"),
+    "what is expected of a share of the runs": ("sweeps.md", "expect"),
 }
 
 
@@ -141,7 +144,8 @@ def changed_files_are_refused(source, mixloop, kind, names, schema, wrong):
     folder = os.path.join(source, "tests/schema")
     with tempfile.TemporaryDirectory() as scratch:
         os.makedirs(os.path.join(scratch, "a/b"))
-        os.symlink(os.path.join(source, "scenes"), os.path.join(scratch, "scenes"))
+        for name in ("scenes", "experiments"):
+            os.symlink(os.path.join(source, name), os.path.join(scratch, name))
         for name in names:
             with open(os.path.join(folder, name), encoding="utf-8") as text:
                 document = yaml.load(text, Loader)
@@ -200,14 +204,22 @@ def pages_name_the_keys(source, known, wrong):
         wrong += [f"docs/{page}, {heading}: '{key}' is no key" for key in sorted(strange)]
 
 
+def shipped_files(source, kind):
+    """Sweeps lie beside the experiments, and are named so."""
+    if kind == "sweep":
+        return glob.glob(os.path.join(source, "experiments", "*.sweep.yaml"))
+    return [file for file in glob.glob(os.path.join(source, f"{kind}s", "*.yaml")) if not file.endswith(".sweep.yaml")]
+
+
 def main(source, mixloop):
     source = os.path.realpath(source)
     wrong, known, tried = [], {}, 0
-    for kind, names in (("scene", ["scene.yaml", "closures.yaml"]), ("experiment", ["experiment.yaml", "line.yaml", "free.yaml", "near_singular.yaml"])):
+    for kind, names in (("scene", ["scene.yaml", "closures.yaml"]), ("experiment", ["experiment.yaml", "line.yaml", "free.yaml", "near_singular.yaml", "motors.yaml"]),
+                        ("sweep", ["many.sweep.yaml"])):
         schema = schema_of(mixloop, kind)
         jsonschema.Draft7Validator.check_schema(schema)
         validator = jsonschema.Draft7Validator(schema)
-        shipped = sorted(glob.glob(os.path.join(source, f"{kind}s", "*.yaml")))
+        shipped = sorted(shipped_files(source, kind))
         for file in shipped + [os.path.join(source, "tests/schema", name) for name in names]:
             for error in validator.iter_errors(yaml.load(open(file, encoding="utf-8"), Loader)):
                 wrong.append(f"{file}: {error.json_path}: {error.message[:200]}")

@@ -19,7 +19,7 @@ export class Drawing {
     this.mechanism = mechanism;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.space = new THREE.Scene();
-    const places = [...mechanism.frames.map(({ home }) => home), ...path].map((place) => new THREE.Vector3(...place));
+    const places = [...mechanism.frames.map(({ home }) => home), ...mechanism.extent, ...path].map((place) => new THREE.Vector3(...place));
     this.box = new THREE.Box3().setFromPoints(places);
     const sphere = this.box.getBoundingSphere(new THREE.Sphere());
     sphere.radius = Math.max(sphere.radius, 1e-3);

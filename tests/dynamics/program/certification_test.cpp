@@ -96,6 +96,31 @@ TEST(Certification, RandomMechanismsThatMoveFreelyAreAsExactAsTheProcedure) {
   EXPECT_GE(freed, 6);
 }
 
+// Three joints that one motor turns by factors that are no fractions, and as many motors: base angles of
+// which each has one motor alone, and none its own.
+TEST(Certification, AsManyJointsOfOneMotorAsThereAreMotors) {
+  const char* text = R"(
+motors: {a: linear, b: linear, c: rotary}
+coordinates: [{x: linear}, {y: linear}, q1, q2, q3]
+constraints: {x: a, y: b, q1: 1.1060791015625*c, q2: 0.7071067811865476*c, q3: -0.4403686523437500*c}
+transforms:
+  - {from: 0, to: 1, theta: q1, a: 0.5}
+  - {from: 1, to: 2, theta: q2, a: 0.4, alpha: 90 deg}
+  - {from: 2, to: 3, s: 0.1 m + x}
+  - {from: 0, to: 4, theta: q3, a: 0.3, alpha: 90 deg}
+  - {from: 4, to: 5, s: y}
+bodies:
+  - {frame: 1, mass: 2, center_of_mass: [-0.2, 0.1, 0], inertia: {xx: 0.02, yy: 0.03, zz: 0.04}}
+  - {frame: 3, mass: 1.5, center_of_mass: [0.1, 0.02, 0.03], inertia: {xx: 0.02, yy: 0.03, zz: 0.04}}
+  - {frame: 5, mass: 0.7, center_of_mass: [0.2, 0.1, 0], inertia: {xx: 0.01, yy: 0.012, zz: 0.013}}
+gravity: [0, -9.81, 0]
+end_effector: {frame: 3}
+)";
+  const auto scene = std::make_shared<const Scene>(load_scene(parse_document(text, "made")));
+  ASSERT_FALSE(trace(scene, Purpose::mass_matrix, Tracing::harmonic).outputs.empty());
+  certify(scene, "one motor's joints", 4, 1);
+}
+
 // A tree whose coordinates are the motors', scaled and offset: articulated bodies trace it too.
 constexpr const char* kTree = R"(
 parameters: {load: 2 kg}

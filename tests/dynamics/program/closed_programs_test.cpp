@@ -73,7 +73,7 @@ const std::string kTorn =
 
 struct Closed {
   const char* name;
-  const std::string& text;
+  std::string text;
   bool by_newton;
 };
 
@@ -215,7 +215,7 @@ TEST_P(ClosedPrograms, GoOnTheSameWayFromAnAnchorThatIsPutBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, ClosedPrograms,
-                         ::testing::Values(Closed{"FourBar", *new std::string(four_bar()), false},
+                         ::testing::Values(Closed{"FourBar", four_bar(), false},
                                            Closed{"Wound", kWound, false},
                                            Closed{"Inclined", kInclined, false},
                                            Closed{"Inverted", kInverted, false},

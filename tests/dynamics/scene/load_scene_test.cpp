@@ -318,7 +318,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"UnknownMotorAtHome", with("psi1: 120 deg", "@psi2: 120 deg"), "unknown_key",
                  "in home; did you mean 'psi1'?"},
         BadInput{"MissingMotors", "@" + with("motors: [psi1]\n", ""), "missing_key",
-                 "the scene lacks the key 'motors'"},
+                 "neither 'motors' nor 'free'"},
         BadInput{"MissingFrom", with("{from: 1, to: 2", "@{to: 2"), "missing_key",
                  "a transform lacks the key 'from'"},
         BadInput{"MissingTo", with("{from: 1, to: 2", "@{from: 1"), "missing_key",

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "sweep/outcome.hpp"
+#include "sweep/setup.hpp"
+
+namespace mixloop {
+
+/// What is told of runs.
+struct Telling {
+  Columns columns;
+  std::optional<double> settled_within;  ///< m
+  bool hashes = false;  ///< the trajectories' SHA-256, for which they are kept while they run
+};
+
+/// Goes through runs that have been prepared, experiments equal but for their numbers, and says what became
+/// of each, in their order. Threads have one at once. Every engine gives the same bytes.
+using Engine = std::function<std::vector<Outcome>(std::span<const PreparedRun> runs, const Telling& telling)>;
+
+/// What is told of a run of which this was measured.
+Outcome outcome_of(const PreparedRun& run, const Measures& measures, const Telling& telling);
+
+/// One run after the other, as `mixloop simulate` does it.
+std::vector<Outcome> run_one_by_one(std::span<const PreparedRun> runs, const Telling& telling);
+
+/// Runs `first` to `first` + `count` - 1 of a sweep, prepared and gone through; those that can't be prepared
+/// are refused. Fewer where `goes_on` says so.
+std::vector<Outcome> run_batch(const Setup& setup, const Telling& telling, const Engine& engine,
+                               std::int64_t first, std::int64_t count, const std::function<bool()>& goes_on);
+
+}  // namespace mixloop
