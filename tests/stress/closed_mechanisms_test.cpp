@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -72,8 +73,10 @@ class Multipliers {
         scene_(scene),
         home_psi_(widened(mechanism.home_psi())),
         home_(mechanism.pose()) {
+    // Those that were found to be linear have a formula now.
     for (int j = 0; j < mechanism.m(); ++j)
-      if (scene.coordinates[static_cast<std::size_t>(j)].is_solved())
+      if (scene.coordinates[static_cast<std::size_t>(j)].is_solved() ||
+          std::ranges::count(scene.linear, j) > 0)
         home_[j] = Wide(scene.coordinates[static_cast<std::size_t>(j)].home);
     is_closed_ = mechanism.close<Wide>(home_, home_psi_, Wide(0));
   }
