@@ -113,7 +113,8 @@ int run(SweepLine& line) {
   if (line.how.peers != nullptr && line.how.peers->rank() > 0) {
     const auto patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * line.how.patience));
     line.how.peers->leave(follow(
-        *line.how.peers, sweep, LaneEngine(), line.how.threads, [&] { return !stop.turned(); }, patience));
+        *line.how.peers, sweep, LaneEngine(line.how.device), line.how.threads, [&] { return !stop.turned(); },
+        patience));
     return kHeld;
   }
   line.how.quiet = line.json;
@@ -171,6 +172,16 @@ void add_sweep_command(CLI::App& app, int& status) {
                    "how many runs at a time; one a core, by mpirun one a rank")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
+  command
+      ->add_option_function<std::string>(
+          "--device",
+          [options](const std::string& device) {
+            options->how.device = device == "cuda" ? LoopDevice::cuda : LoopDevice::cpu;
+          },
+          "where runs go side by side: cpu, or cuda, a graphics processor, which takes nvcc; the bytes are "
+          "the same")
+      ->check(CLI::IsMember({"cpu", "cuda"}).description(""))
+      ->type_name("DEVICE");
   command
       ->add_option("--shard", options->shard,
                    "do the I-th of N parts alone, of a job array; --merge puts them together")

@@ -103,7 +103,8 @@ Swept swept(const Sweep& sweep, const SweepOptions& options, const StopSwitch& s
   if (!options.merges) {
     ShownSweep shown(sweep.name(), options.quiet);
     go_through(sweep, folder, options.part,
-               {.threads = options.threads,
+               {.engine = LaneEngine(options.device),
+                .threads = options.threads,
                 .peers = options.peers,
                 .patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * options.patience)),
                 .goes_on = [&] { return !stop.turned(); },

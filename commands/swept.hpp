@@ -6,6 +6,7 @@
 
 #include "runtime/clock/stop_switch.hpp"
 #include "sweep/folder.hpp"
+#include "sweep/kernel/closed_loops.hpp"
 #include "sweep/peers.hpp"
 #include "sweep/statistics.hpp"
 
@@ -20,6 +21,7 @@ struct SweepOptions {
   bool quiet = false;      ///< no word of how far it is
   Peers* peers = nullptr;  ///< processes that this one leads
   double patience = 10;    ///< s, with them
+  LoopDevice device = LoopDevice::cpu;
 };
 
 /// A sweep that was gone through, or a part of it.

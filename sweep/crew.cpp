@@ -35,9 +35,10 @@ void Crew::work() {
 
 bool Crew::ended_within(std::chrono::milliseconds time) {
   std::unique_lock lock(state_);
-  const bool ended = changed_.wait_for(lock, time, [&] { return at_work_ == 0; });
-  if (ended && failure_) std::rethrow_exception(failure_);
-  return ended;
+  // Where one has failed, others may wait for what it had in hand.
+  changed_.wait_for(lock, time, [&] { return at_work_ == 0 || failure_; });
+  if (failure_) std::rethrow_exception(failure_);
+  return at_work_ == 0;
 }
 
 }  // namespace mixloop

@@ -33,7 +33,7 @@ class Crew {
   Crew& operator=(const Crew&) = delete;
 
   /// Waits so long, or until all threads have ended; once they have, at once. Whether they have; rethrows
-  /// what ended one of them.
+  /// what ended one of them, as soon as it has.
   bool ended_within(std::chrono::milliseconds time);
 
  private:

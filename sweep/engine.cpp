@@ -51,11 +51,11 @@ std::vector<Outcome> run_one_by_one(std::span<const PreparedRun> runs, const Tel
 
 std::vector<Outcome> run_batch(const Setup& setup, const Telling& telling, const Engine& engine,
                                std::int64_t first, std::int64_t count, const std::function<bool()>& goes_on) {
-  static constexpr std::int64_t kTogether = 8;
+  const std::int64_t together = std::max<std::int64_t>(8, engine.batch());
   std::vector<Outcome> outcomes;
-  for (std::int64_t begin = first; begin < first + count; begin += kTogether) {
+  for (std::int64_t begin = first; begin < first + count; begin += together) {
     if (begin > first && !goes_on()) break;
-    const std::int64_t end = std::min(begin + kTogether, first + count);
+    const std::int64_t end = std::min(begin + together, first + count);
     std::vector<PreparedRun> ready;
     std::vector<Outcome> refused;
     for (std::int64_t run = begin; run < end; ++run) try {

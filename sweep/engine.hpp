@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <type_traits>
 
 #include "sweep/outcome.hpp"
 #include "sweep/setup.hpp"
@@ -18,7 +19,26 @@ struct Telling {
 
 /// Goes through runs that have been prepared, experiments equal but for their numbers, and says what became
 /// of each, in their order. Threads have one at once. Every engine gives the same bytes.
-using Engine = std::function<std::vector<Outcome>(std::span<const PreparedRun> runs, const Telling& telling)>;
+class Engine {
+ public:
+  using Go = std::function<std::vector<Outcome>(std::span<const PreparedRun> runs, const Telling& telling)>;
+
+  /// Of a function, or of what says by batch() how many runs it wants at a time, where there are so many.
+  template <class Runner>
+  requires(std::is_constructible_v<Go, Runner> && !std::is_same_v<Runner, Engine>) Engine(Runner runner) {
+    if constexpr (requires { runner.batch(); }) batch_ = runner.batch();
+    go_ = std::move(runner);
+  }
+
+  std::vector<Outcome> operator()(std::span<const PreparedRun> runs, const Telling& telling) const {
+    return go_(runs, telling);
+  }
+  std::int64_t batch() const { return batch_; }
+
+ private:
+  Go go_;
+  std::int64_t batch_ = 1;
+};
 
 /// What is told of a run of which this was measured.
 Outcome outcome_of(const PreparedRun& run, const Measures& measures, const Telling& telling);

@@ -29,7 +29,7 @@ void go_through(const Sweep& sweep, const SweepFolder& folder, const Part& part,
   Journal journal(folder.journal(), sweep.sha256());
   const std::size_t values = sweep.telling().columns.size();
   Work work({without(sweep.runs(), KeptRuns(folder.journals(), sweep.sha256(), values).done()),
-             {batch_for(sweep.runs()), part.index, part.of}},
+             {batch_for(sweep.runs(), how.engine.batch()), part.index, part.of}},
             [&](std::span<const Outcome> outcomes) { journal.append(outcomes); });
   std::optional<Leading> leading;
   if (how.peers != nullptr) leading.emplace(*how.peers, sweep, work, how.patience, how.said);

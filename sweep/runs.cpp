@@ -18,7 +18,9 @@ std::vector<Runs> without(std::int64_t all, std::vector<Runs> done) {
 }
 
 // Few enough that whoever comes last has little left to do, many enough that handing out costs nothing.
-std::int64_t batch_for(std::int64_t runs) { return runs < 256 ? 1 : runs < 16384 ? 8 : 64; }
+std::int64_t batch_for(std::int64_t runs, std::int64_t least) {
+  return std::max<std::int64_t>(least, runs < 256 ? 1 : runs < 16384 ? 8 : 64);
+}
 
 Runs Dispenser::next() {
   while (at_ < pending_.size()) {

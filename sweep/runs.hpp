@@ -23,8 +23,8 @@ struct Share {
   std::int64_t batch = 1, index = 0, of = 1;
 };
 
-/// How many runs are worth handing out at a time.
-std::int64_t batch_for(std::int64_t runs);
+/// How many runs are worth handing out at a time, `least` at least.
+std::int64_t batch_for(std::int64_t runs, std::int64_t least = 1);
 
 /// Hands out runs that are to be done, a batch or what is left of it at a time. One thread at a time.
 class Dispenser {

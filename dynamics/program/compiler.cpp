@@ -37,7 +37,8 @@ std::optional<fs::path> on_the_path(const std::string& name) {
   return std::nullopt;
 }
 
-std::optional<Compiler> compiler_at(const std::string& name) {
+std::optional<Compiler> compiler_at(const std::string& name, const std::vector<std::string>& flags,
+                                    const char* suffix = ".cpp") {
   const auto path = on_the_path(name);
   if (!path) return std::nullopt;
   std::error_code failed;
@@ -47,7 +48,7 @@ std::optional<Compiler> compiler_at(const std::string& name) {
   std::ostringstream identity;
   identity << file.string() << ' ' << info.st_size << ' ' << info.st_mtim.tv_sec << '.'
            << info.st_mtim.tv_nsec;
-  return Compiler{*path, identity.str()};
+  return Compiler{*path, identity.str(), flags, suffix};
 }
 
 /// Waits for a compiler's end. Throws Interrupted, the compiler ended.
@@ -75,10 +76,20 @@ bool succeeds(pid_t child) {
 }  // namespace
 
 std::optional<Compiler> find_compiler() {
-  if (const char* chosen = std::getenv("MIXLOOP_CXX")) return compiler_at(chosen);
+  if (const char* chosen = std::getenv("MIXLOOP_CXX")) return compiler_at(chosen, machine_code_flags());
   const char* cxx = std::getenv("CXX");
   for (const char* name : {cxx != nullptr ? cxx : "c++", "c++", "g++", "clang++"})
-    if (auto compiler = compiler_at(name)) return compiler;
+    if (auto compiler = compiler_at(name, machine_code_flags())) return compiler;
+  return std::nullopt;
+}
+
+// For no architecture in particular: the driver makes the device's own code of it. No contraction, either.
+std::optional<Compiler> find_cuda_compiler() {
+  static const std::vector<std::string> flags = {"-std=c++17", "-O3",        "-fmad=false",
+                                                 "-shared",    "-Xcompiler", "-fPIC,-ffp-contract=off"};
+  if (const char* chosen = std::getenv("MIXLOOP_NVCC")) return compiler_at(chosen, flags, ".cu");
+  for (const char* name : {"nvcc", "/usr/local/cuda/bin/nvcc"})
+    if (auto compiler = compiler_at(name, flags, ".cu")) return compiler;
   return std::nullopt;
 }
 
@@ -97,7 +108,7 @@ const std::vector<std::string>& machine_code_flags() {
 bool build_shared_object(const Compiler& compiler, const fs::path& source, const fs::path& result,
                          std::string& complaint) {
   std::vector<std::string> words{compiler.path.string()};
-  words.insert(words.end(), machine_code_flags().begin(), machine_code_flags().end());
+  words.insert(words.end(), compiler.flags.begin(), compiler.flags.end());
   words.insert(words.end(), {"-o", result.string(), source.string()});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

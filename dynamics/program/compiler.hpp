@@ -8,14 +8,20 @@
 
 namespace mixloop {
 
-/// The system's C++ compiler.
+/// A compiler of this machine, and how it makes a shared object of one source file.
 struct Compiler {
   std::filesystem::path path;
   std::string identity;  ///< changes when the compiler does: file, size and time of modification
+  std::vector<std::string> flags;
+  const char* suffix = ".cpp";  ///< of what it compiles
 };
 
 /// $MIXLOOP_CXX (empty: none), else $CXX, else c++, g++ or clang++ on the PATH; nullopt if there is none.
 std::optional<Compiler> find_compiler();
+
+/// The same for graphics processors: $MIXLOOP_NVCC (empty: none), else nvcc on the PATH or where CUDA
+/// installs it.
+std::optional<Compiler> find_cuda_compiler();
 
 /// The flags that machine code is built with. No contraction: products and sums round separately, so that
 /// machine code and interpreter give the same bits.

@@ -26,7 +26,7 @@ std::string entry_key(const std::string& key, const Compiler& compiler) {
   part(kGenerator);
   part(key);
   part(compiler.identity);
-  for (const std::string& flag : machine_code_flags()) part(flag);
+  for (const std::string& flag : compiler.flags) part(flag);
   part(processor_identity());
   return hash.hex();
 }
@@ -38,7 +38,8 @@ bool build(const CacheEntry& entry, const std::filesystem::path& directory, cons
     complaint = "cannot write to " + directory.string();
     return false;
   }
-  const std::filesystem::path text = workshop.path() / "program.cpp", built = workshop.path() / "program.so";
+  const std::filesystem::path text = workshop.path() / (std::string("program") + compiler.suffix),
+                              built = workshop.path() / "program.so";
   std::ofstream file(text);
   file << source;
   file.close();
@@ -62,19 +63,21 @@ std::string SharedObject::hindrance() {
 
 SharedObject SharedObject::cached(const std::string& key, const std::function<std::string()>& source,
                                   std::string& complaint) {
+  if (const auto compiler = find_compiler()) return cached(key, source, *compiler, complaint);
+  complaint = kNoCompiler;
+  return {};
+}
+
+SharedObject SharedObject::cached(const std::string& key, const std::function<std::string()>& source,
+                                  const Compiler& compiler, std::string& complaint) {
   SharedObject result;
-  const auto compiler = find_compiler();
-  if (!compiler) {
-    complaint = kNoCompiler;
-    return result;
-  }
   const auto directory = cache_directory(complaint);
   if (!directory) return result;
-  const CacheEntry entry(*directory, entry_key(key, *compiler));
+  const CacheEntry entry(*directory, entry_key(key, compiler));
   result.file_ = entry.sound();
   if (!result.file_) {
     const std::string text = source();
-    if (text.empty() || !build(entry, *directory, *compiler, text, complaint)) return result;
+    if (text.empty() || !build(entry, *directory, compiler, text, complaint)) return result;
     result.file_ = entry.sound();
     if (!result.file_) complaint = "cannot read back " + entry.path().string();
     if (!result.file_) return result;

@@ -9,6 +9,8 @@
 
 namespace mixloop {
 
+struct Compiler;
+
 /// A loaded library of emitted code.
 class SharedObject {
  public:
@@ -17,6 +19,9 @@ class SharedObject {
   /// `complaint` says why.
   static SharedObject cached(const std::string& key, const std::function<std::string()>& source,
                              std::string& complaint);
+  /// The same by this compiler.
+  static SharedObject cached(const std::string& key, const std::function<std::string()>& source,
+                             const Compiler& compiler, std::string& complaint);
 
   /// Why none can be had here, whatever it is: no compiler, no private cache; empty where it can.
   static std::string hindrance();

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "sweep/engine.hpp"
-#include "sweep/kernel/kernel_source.hpp"
 
 namespace mixloop {
 
@@ -15,23 +14,39 @@ namespace mixloop {
 /// where it is.
 std::string hindrance_in_lanes(const PreparedRun& run);
 
+/// The same on a graphics processor, whose C library has other bits than the processor's.
+std::string hindrance_on_device(const PreparedRun& run);
+
 /// Goes through runs of one kind, one after the other, by a library that was built from kernel_source.
 /// Throws std::runtime_error where it can't be loaded.
 std::vector<Outcome> run_in_library(const std::string& library, std::span<const PreparedRun> runs,
                                     const Telling& telling);
 
-/// Goes through runs side by side in the processor's vectors, as many as it has lanes, by code that is
-/// compiled once for all that have the same scenes and kind of law; those that have another kind of closed
-/// loop, and all where there is no compiler, by run_one_by_one. The outcomes are the same to the bit. Threads
-/// share it.
+/// Where closed loops run side by side.
+enum class LoopDevice : std::uint8_t {
+  cpu,   ///< in the processor's vectors, as many as it has lanes
+  cuda,  ///< on a graphics processor, a run a thread
+};
+
+/// Goes through runs side by side, by code that is compiled once for all that have the same scenes and kind
+/// of law; those that have another kind of closed loop, and all where there is no compiler, by
+/// run_one_by_one; on a graphics processor what can't go there in lanes. The outcomes are the same to the
+/// bit. Threads share it.
+///
+/// Of each kernel of a graphics processor the first runs are also gone through here, and compared: throws
+/// RunFault("other_bits") where they differ, RunFault("no_device") where there is none, and
+/// RunFault("missing_part") where nothing compiles for it.
 class LaneEngine {
  public:
+  explicit LaneEngine(LoopDevice device = LoopDevice::cpu);
+
   std::vector<Outcome> operator()(std::span<const PreparedRun> runs, const Telling& telling) const;
+  /// How many runs it wants at a time.
+  std::int64_t batch() const;
 
  private:
-  struct Shelf;
-  std::shared_ptr<Shelf> shelf_ = make_shelf();
-  static std::shared_ptr<Shelf> make_shelf();
+  class Shelf;
+  std::shared_ptr<Shelf> shelf_;
 };
 
 }  // namespace mixloop

@@ -10,6 +10,7 @@
 namespace mixloop {
 
 extern const char* const kClosedLoopText;
+extern const char* const kOnDeviceText;
 
 namespace {
 
@@ -68,10 +69,9 @@ MIXLOOP_CLOSED_LOOPS(8, mixloop_lanes::Lanes8)
 
 constexpr const char* kOnCuda = R"(
 #if defined(__CUDACC__)
-// A run a thread; the arrays lie in the device's memory.
-__global__ void closed_loops(mixloop_loop::Common common, mixloop_loop::Each each, mixloop_loop::Told told) {
-  const int run = blockIdx.x * blockDim.x + threadIdx.x;
-  if (run < common.runs) mixloop_loop::Loop<double, Programs>(common, each, told, run).run();
+extern "C" const char* closed_loops_on_device(const mixloop_loop::Common* common, const mixloop_loop::Each* each,
+                                              const mixloop_loop::Told* told) {
+  return mixloop_loop::closed_loops_on_device<Programs>(*common, *each, *told);
 }
 #endif
 // The same on the host.
@@ -84,8 +84,9 @@ extern "C" void closed_loops_1(const mixloop_loop::Common* common, const mixloop
 }  // namespace
 
 std::string KernelParts::key() const {
-  return fmt::format("closed loop {} {} {} {} {}\n{}\n{}", sha256_hex(kClosedLoopText), feedforward, bias,
-                     sensors, drives, plant->canonical, controller->canonical);
+  static const std::string text = sha256_hex(std::string(kClosedLoopText) + kOnDeviceText);
+  return fmt::format("closed loop {} {} {} {} {}\n{}\n{}", text, feedforward, bias, sensors, drives,
+                     plant->canonical, controller->canonical);
 }
 
 std::string kernel_source(const KernelParts& parts, KernelTarget target) {
@@ -105,6 +106,7 @@ std::string kernel_source(const KernelParts& parts, KernelTarget target) {
     members += member(part);
   }
   text += kClosedLoopText;
+  if (target == KernelTarget::cuda) text += kOnDeviceText;
   text += fmt::format(
       "\nnamespace {{\nstruct Programs {{\n  static constexpr int n = {}, n_u = {};\n"
       "  static constexpr bool sensors = {}, drives = {};\n{}}};\n}}\n",

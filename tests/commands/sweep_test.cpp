@@ -203,6 +203,16 @@ TEST_F(SweepCommand, SaysOnATerminalHowFarItIsAndHowFast) {
   EXPECT_EQ(screen.wait(milliseconds(5000)), 130);
 }
 
+TEST_F(SweepCommand, AGraphicsProcessorThatIsNotThereIsSaid) {
+  auto words = line("kept", {"--device", "cuda", "--json"});
+  words.insert(words.begin(), {"/usr/bin/env", "MIXLOOP_NVCC="});
+  Command command(words);
+  EXPECT_EQ(command.wait(), 3);
+  const auto error = nlohmann::json::parse(command.out()).at("error");
+  EXPECT_EQ(error.at("code"), "missing_part");
+  EXPECT_THAT(error.at("message").get<std::string>(), HasSubstr("nvcc"));
+}
+
 TEST_F(SweepCommand, BadInputIsRefused) {
   const auto refused = [](std::vector<std::string> words, const char* code, const char* message) {
     words.insert(words.begin(), {"sweep", experiment("paper")});

@@ -118,6 +118,20 @@ class SplitSweep : public testing::Test {
   const Sweep sweep = sweep_of(request, false);
 };
 
+// The others would wait for the runs that the one that fails has in hand.
+TEST_F(SplitSweep, EndsWhereAnEngineFails) {
+  const ScratchFolder folder;
+  const SweepFolder kept(folder.path(), sweep, {});
+  std::atomic<int> calls{0};
+  const auto failing = [&](std::span<const PreparedRun> runs, const Telling& telling) {
+    if (++calls == 20) throw RunFault("no_device", "it is gone");
+    return run_one_by_one(runs, telling);
+  };
+  EXPECT_THROW(go_through(sweep, kept, {}, {.engine = failing, .threads = 4}), RunFault);
+  const KeptRuns runs(kept.journals(), sweep.sha256(), sweep.telling().columns.size());
+  EXPECT_FALSE(runs.done().empty()) << "what was brought before is kept";
+}
+
 TEST_F(SplitSweep, HasTheSameBytes) {
   const auto on = [] { return true; };
   const std::string whole = table({{}}, 1, on);
