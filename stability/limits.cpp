@@ -23,6 +23,8 @@ Matrix scaled_gain(const Feedback& feedback, double factor, Eigen::Index motor =
   return proportional + feedback.model;
 }
 
+}  // namespace
+
 std::optional<double> longest_tick(const LinearLoop& loop, double delay, double tick) {
   // Ticks far below the delay make a long queue of commands; the loop is as stable as at a tenth of it.
   const double start = std::max(tick / kFarTicks, delay / 10);
@@ -33,8 +35,6 @@ std::optional<double> longest_tick(const LinearLoop& loop, double delay, double 
       start, tick * kFarTicks, stretched);
   return limit == start ? 0 : limit;
 }
-
-}  // namespace
 
 std::optional<double> first_unstable(const std::function<double(double)>& radius, double start, double end,
                                      const std::function<double(double)>& next) {

@@ -26,6 +26,10 @@ struct Limits {
 
 Limits limits_of(const LinearLoop& loop, const Sampling& sampling);
 
+/// The longest tick, s, at which the loop is stable with this delay, looking on from a hundredth of `tick`; 0
+/// where none is short enough, empty where 100 of it aren't too long.
+std::optional<double> longest_tick(const LinearLoop& loop, double delay, double tick);
+
 /// The longest delay at which the loop is stable with this tick, s; 0 where it isn't without one, empty where
 /// 20 ticks aren't too long. Looks every `step` of a second: narrower gaps are not seen.
 std::optional<double> longest_delay(const LinearLoop& loop, double tick, double step);
