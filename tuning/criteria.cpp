@@ -19,14 +19,14 @@ std::string family_of(const std::string& name) { return name.substr(0, name.find
 
 }  // namespace
 
-double margin_at(const Margin& margin, const LinearLoop& loop, const Sampling& sampling) {
+double margin_at(const Margin& margin, const LinearLoop& loop, const Sampling& sampling, double narrowest) {
   switch (margin.kind) {
     case Margin::Kind::spectral_radius:
       return sampled_radius(loop, loop.feedback.gain(), sampling);
     case Margin::Kind::longest_tick:
-      return longest_tick(loop, sampling.delay, sampling.tick).value_or(kNoLimit);
+      return longest_tick(loop, sampling.delay, sampling.tick, narrowest).value_or(kNoLimit);
     default:
-      return longest_delay(loop, sampling.tick, sampling.tick / 16).value_or(kNoLimit);
+      return longest_delay(loop, sampling.tick, sampling.tick / 16, narrowest).value_or(kNoLimit);
   }
 }
 

@@ -31,8 +31,9 @@ struct Margin {
   bool is_along_path() const { return kind <= Kind::longest_delay; }
 };
 
-/// Of one instant's loop, an along-path margin; infinite where there is no limit.
-double margin_at(const Margin& margin, const LinearLoop& loop, const Sampling& sampling);
+/// Of one instant's loop, an along-path margin; infinite where there is no limit, or where it is known to be
+/// none of a path that has one of `narrowest` elsewhere.
+double margin_at(const Margin& margin, const LinearLoop& loop, const Sampling& sampling, double narrowest);
 /// Of the start's limits, one of the others.
 double margin_at_start(const Margin& margin, const Limits& limits);
 

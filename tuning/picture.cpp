@@ -80,7 +80,7 @@ void draw_tuned(const Problem& problem, const std::vector<double>& before, const
   }
   if (!torques.empty()) panels.push_back(panel("Torques", "N m, or N", torques));
   if (!was.map.ticks.empty())
-    panels.push_back(map_commands({was.map, is.map}, is.sampling, "Stable to the left of the lines"));
+    panels.push_back(map_commands({is.map, was.map}, is.sampling, "Stable to the left of the lines"));
   const auto rows = static_cast<int>(panels.size());
   std::string script = fmt::format(
       "set encoding utf8\nset terminal {}\nset grid\nset key outside right noenhanced\n"

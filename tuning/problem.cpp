@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -98,7 +99,8 @@ void Problem::require_open_knobs() const {
         throw error;
       }
       throw InputError(error.code, knobs_[i].place,
-                       fmt::format("{} can't be {}: {}; expected a number that can be tuned",
+                       fmt::format("{} can't be tuned, since not every number between its ends will do; "
+                                   "with {} {}",
                                    in_quotes(knobs_[i].key), knobs_[i].text_of(other[i]), error.message));
     }
   }
@@ -159,14 +161,20 @@ void Problem::add_margins(std::vector<Run>& runs) const {
           criteria_[margins_[margin]].margin->is_along_path() ? runs[run].survey->loops.size() : 1;
       for (std::size_t pose = 0; pose < poses; ++pose) tasks.push_back({run, pose, margin});
     }
+  // The least that is known of each; what is known to be no less isn't looked for, which changes no bit.
+  std::vector<std::atomic<double>> narrowest_so_far(runs.size() * margins_.size());
+  for (auto& one : narrowest_so_far) one = kInfinite;
   side_by_side(tasks.size(), threads_, [&](std::size_t i) {
     Task& task = tasks[i];
     if (!goes_on_()) throw Interrupted("interrupted while tuning");
     const Margin& margin = *criteria_[margins_[task.margin]].margin;
     const Survey& survey = *runs[task.run].survey;
     const LinearLoop& loop = survey.loops[task.pose];
-    task.value = margin.is_along_path() ? margin_at(margin, loop, survey.sampling)
+    std::atomic<double>& known = narrowest_so_far[task.run * margins_.size() + task.margin];
+    task.value = margin.is_along_path() ? margin_at(margin, loop, survey.sampling, known)
                                         : margin_at_start(margin, limits_of(loop, survey.sampling));
+    for (double least = known; task.value < least && !known.compare_exchange_weak(least, task.value);) {
+    }
   });
   for (const Task& task : tasks) {
     double& narrowest = runs[task.run].criteria[margins_[task.margin]];
