@@ -10,6 +10,7 @@
 #include "commands/runs_line.hpp"
 #include "commands/sweep_progress.hpp"
 #include "commands/tuned.hpp"
+#include "commands/warnings.hpp"
 #include "notation/long_work.hpp"
 #include "notation/utf8.hpp"
 #include "report/progress.hpp"
@@ -74,6 +75,14 @@ Tuned searched(const Problem& problem, const TuneLine& line) {
   });
 }
 
+/// What simulate will warn of.
+std::vector<std::string> warnings_of_tuned(const Problem& problem, const std::vector<double>& values) try {
+  const PreparedRun run = problem.setup().prepared(0, problem.overrides(values));
+  return warnings_of(run.experiment, *run.plan, true);
+} catch (const InputError&) {  // it can't be run at all, which is told
+  return {};
+}
+
 int run(TuneLine& line) {
   if (!can_minimise())
     throw RunFault(
@@ -94,6 +103,7 @@ int run(TuneLine& line) {
   const Uninterrupted whole;
   story.before = problem.alone(problem.before().values);
   story.after = problem.alone(story.tuned.best.values);
+  story.warnings = warnings_of_tuned(problem, story.tuned.best.values);
   if (story.tuned.best.is_feasible()) {
     write_experiment(file, head_of(story), problem.setup(), problem.overrides(story.tuned.best.values));
     story.file = file.string();

@@ -75,6 +75,7 @@ std::string ending(const TuneStory& story) {
         "KEY=FROM..TO), more\n  --evaluations or other bounds may help\n";
   else if (!tuned.improves)
     text += "  nothing better was found: this is the experiment as it stands\n";
+  for (const std::string& warning : story.warnings) text += "  warning: " + warning + "\n";
   if (!story.file.empty())
     text += "  " + as_called(fmt::format("written: mixloop simulate {}\n", printable_name(story.file)));
   if (!story.picture.empty()) text += "  drawn in " + printable_name(story.picture) + "\n";
@@ -134,8 +135,9 @@ std::string summary(const TuneStory& story) {
     text += row("runs that fail", fmt::format("{}", before.failed), fmt::format("{}", after.failed));
   for (std::size_t i = 0; i < problem.knobs().size(); ++i) {
     const Knob& knob = problem.knobs()[i];
-    text += row(knob.key, knob.text_of(knob.now), knob.text_of(after.values[i]),
-                fmt::format("{:.6g}..{}", knob.least, knob.text_of(knob.most)));
+    text += row(
+        knob.key, knob.text_of(knob.now), knob.text_of(after.values[i]),
+        fmt::format("{:.6g}..{:.6g}{}{}", knob.least, knob.most, knob.unit.empty() ? "" : " ", knob.unit));
   }
   return text + alone_text(story) + ending(story);
 }
@@ -158,6 +160,7 @@ nlohmann::json json_of(const TuneStory& story) {
       {"alone",
        {{"before", json_of(story.before, problem.criteria())},
         {"after", json_of(story.after, problem.criteria())}}},
+      {"warnings", story.warnings},
       {"evaluations", story.tuned.evaluations},
       {"feasible", after.is_feasible()},
       {"improved", story.tuned.improves},

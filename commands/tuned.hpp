@@ -12,8 +12,9 @@ namespace mixloop {
 struct TuneStory {
   const Problem* problem = nullptr;
   Tuned tuned;
-  Problem::Alone before, after;  ///< the experiment and the tuned one by themselves
-  std::string file, picture;     ///< written; empty: nothing was
+  Problem::Alone before, after;       ///< the experiment and the tuned one by themselves
+  std::vector<std::string> warnings;  ///< of the tuned experiment
+  std::string file, picture;          ///< written; empty: nothing was
 
   /// 1: nothing holds the bounds, or the tuned experiment misses what it expects.
   int exit_status() const;

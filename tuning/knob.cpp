@@ -87,6 +87,13 @@ double end_of(const Asked& asked, const std::string& text, const std::string& ot
   return end->number * theirs.constant() / (standing.unit.empty() ? 1 : ours.constant());
 }
 
+/// To six digits, as people write numbers.
+double rounded(double value) {
+  const std::string text = fmt::format("{:.6g}", value);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
 Knob knob_of(const Asked& asked, const std::string& key, const Node& node) {
   const auto standing = node.kind == Node::Kind::scalar ? measure_in(node.text) : std::nullopt;
   if (!standing)
@@ -99,8 +106,8 @@ Knob knob_of(const Asked& asked, const std::string& key, const Node& node) {
                  fmt::format("{} is 0, of which a tenth and ten times say nothing; expected two ends, e.g. "
                              "--over {}=FROM..TO",
                              in_quotes(key), key));
-    knob.least = knob.now > 0 ? knob.now / kFurther : knob.now * kFurther;
-    knob.most = knob.now > 0 ? knob.now * kFurther : knob.now / kFurther;
+    knob.least = rounded(knob.now > 0 ? knob.now / kFurther : knob.now * kFurther);
+    knob.most = rounded(knob.now > 0 ? knob.now * kFurther : knob.now / kFurther);
     return knob;
   }
   knob.least = end_of(asked, asked.from, asked.to, *standing);
@@ -122,13 +129,6 @@ void add_knobs(const Asked& asked, const std::string& key, const Node& node, std
   }
   for (std::size_t i = 0; i < node.items.size(); ++i)
     add_knobs(asked, fmt::format("{}[{}]", key, i), *node.items[i], knobs);
-}
-
-/// To six digits, as people write numbers.
-double rounded(double value) {
-  const std::string text = fmt::format("{:.6g}", value);
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
 }
 
 }  // namespace

@@ -12,24 +12,60 @@ namespace {
 
 constexpr int kWidth = 800, kHeight = 330;  // of a panel, pixels
 
-/// A run as it is drawn, tick by tick, up to where it diverged.
+/// A curve of some hundred points that keeps its peaks: of so many ticks in a row the least and the
+/// largest value.
+class Curve {
+ public:
+  explicit Curve(std::int64_t ticks) : together_(std::max<std::int64_t>(1, ticks / 250)) {}
+
+  void add(double x, double y) {
+    if (count_ == 0 || y < least_.y) least_ = {x, y};
+    if (count_ == 0 || y > most_.y) most_ = {x, y};
+    if (++count_ == together_) end_bin();
+  }
+  std::string points(double factor) {
+    if (count_ > 0) end_bin();
+    std::string text;
+    for (const Point& point : points_) text += fmt::format("{:.6g} {:.6g}\n", point.x, point.y * factor);
+    return text;
+  }
+
+ private:
+  struct Point {
+    double x = 0, y = 0;
+  };
+  void end_bin() {
+    points_.push_back(least_.x < most_.x ? least_ : most_);
+    if (least_.x != most_.x) points_.push_back(least_.x < most_.x ? most_ : least_);
+    count_ = 0;
+  }
+
+  std::int64_t together_, count_ = 0;
+  Point least_, most_;
+  std::vector<Point> points_;
+};
+
+/// A run as it is drawn, up to where it diverged.
 struct Course {
-  std::vector<double> times, errors;         ///< s, m
-  std::vector<std::vector<double>> torques;  ///< of each motor
+  Curve error;                 ///< m over s
+  std::vector<Curve> torques;  ///< of each motor
   StabilityMap map;
   Sampling sampling;
 };
 
 Course course_of(const Problem& problem, const std::vector<double>& values, const char* name) {
   const PreparedRun run = problem.setup().prepared(0, problem.overrides(values));
-  Course course{.times = {}, .errors = {}, .torques = {}, .map = {}, .sampling = {}};
-  course.torques.resize(run.experiment.scene->motors().size());
+  const Curve empty(run.plan->ticks());
+  Course course{.error = empty,
+                .torques = std::vector<Curve>(run.experiment.scene->motors().size(), empty),
+                .map = {},
+                .sampling = {}};
   RecordedPlant plant(run.experiment, *run.plan, {.keeps_ticks = false});
   simulate(plant, [&](std::int64_t k) {
-    course.times.push_back(static_cast<double>(k) / run.experiment.rate_hz);
-    course.errors.push_back(plant.recorder().position_error());
+    const double time = static_cast<double>(k) / run.experiment.rate_hz;
+    course.error.add(time, plant.recorder().position_error());
     const auto torque = plant.recorder().commanded(k);
-    for (std::size_t i = 0; i < course.torques.size(); ++i) course.torques[i].push_back(torque[i]);
+    for (std::size_t i = 0; i < course.torques.size(); ++i) course.torques[i].add(time, torque[i]);
     return true;
   });
   if (!closes_loop(run.experiment)) return course;
@@ -40,8 +76,8 @@ Course course_of(const Problem& problem, const std::vector<double>& values, cons
 }
 
 struct Line {
-  const std::vector<double>*x, *y;
-  double factor = 1;  ///< on y
+  Curve* curve;
+  double factor = 1;  ///< on its values
   std::string title;
   std::string_view colour;
   bool dashed = false;
@@ -52,9 +88,7 @@ std::string panel(const std::string& title, const std::string& label, const std:
   for (const Line& line : lines) {
     plots += fmt::format("{}'-' using 1:2 with lines lw 2 dt {} lc rgb '{}' title {}",
                          plots.empty() ? "" : ", ", line.dashed ? 2 : 1, line.colour, in_gnuplot(line.title));
-    for (std::size_t i = 0; i < line.x->size(); ++i)
-      data += fmt::format("{:.9g} {:.9g}\n", (*line.x)[i], (*line.y)[i] * line.factor);
-    data += "e\n";
+    data += line.curve->points(line.factor) + "e\n";
   }
   return fmt::format("set title {} noenhanced\nset xlabel 'time, s'\nset ylabel '{}'\nplot {}\n{}",
                      in_gnuplot(title), label, plots, data);
@@ -65,18 +99,18 @@ std::string panel(const std::string& title, const std::string& label, const std:
 void draw_tuned(const Problem& problem, const std::vector<double>& before, const std::vector<double>& after,
                 const std::filesystem::path& file) {
   const Experiment& experiment = problem.setup().experiment();
-  const Course was = course_of(problem, before, "before"), is = course_of(problem, after, "tuned");
+  Course was = course_of(problem, before, "before"), is = course_of(problem, after, "tuned");
   std::vector<std::string> panels;
   if (experiment.has_path() && experiment.scene->end_effector.named)
     panels.push_back(panel("Position error of " + experiment.name, "mm",
-                           {{&was.times, &was.errors, 1e3, "before", line_colour(0), true},
-                            {&is.times, &is.errors, 1e3, "tuned", line_colour(0), false}}));
+                           {{&was.error, 1e3, "before", line_colour(0), true},
+                            {&is.error, 1e3, "tuned", line_colour(0), false}}));
   std::vector<Line> torques;
   const auto motors = experiment.scene->motors();
   for (std::size_t i = 0; i < motors.size(); ++i) {
     const auto colour = line_colour(i);
-    torques.push_back({&was.times, &was.torques[i], 1, motors[i].name + " before", colour, true});
-    torques.push_back({&is.times, &is.torques[i], 1, motors[i].name + " tuned", colour, false});
+    torques.push_back({&was.torques[i], 1, motors[i].name + " before", colour, true});
+    torques.push_back({&is.torques[i], 1, motors[i].name + " tuned", colour, false});
   }
   if (!torques.empty()) panels.push_back(panel("Torques", "N m, or N", torques));
   if (!was.map.ticks.empty())

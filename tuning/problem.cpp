@@ -226,6 +226,7 @@ Assessment Problem::judged(const std::vector<double>& values, const std::vector<
     const double value = worst(runs, one, !goal_.maximises);
     assessment.goal = goal_.maximises ? std::min(assessment.goal, value) : std::max(assessment.goal, value);
   }
+  assessment.is_known = assessment.goal != (goal_.maximises ? -kInfinite : kInfinite);
   for (const Bound& bound : bounds_) {
     const double value = worst(runs, bound.criterion, bound.is_upper);
     const double size = std::abs(bound.limit) > 0 ? std::abs(bound.limit) : 1;

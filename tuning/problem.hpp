@@ -24,8 +24,9 @@ struct TuneRequest {
 
 /// What a candidate comes to.
 struct Assessment {
-  std::vector<double> values;    ///< of the knobs
-  double goal = 0;               ///< in SI; infinite (of what is maximised, negative) where runs fail
+  std::vector<double> values;  ///< of the knobs
+  double goal = 0;             ///< in SI
+  bool is_known = true;  ///< the goal; not where runs fail, or it was never measured: then it is infinite
   std::vector<double> bounded;   ///< what each bound is on
   std::vector<bool> held;        ///< each bound
   std::int64_t failed = 0;       ///< runs that diverged, or can't be run
@@ -35,7 +36,7 @@ struct Assessment {
   bool is_feasible() const {
     for (const bool one : held)
       if (!one) return false;
-    return std::isfinite(goal);
+    return is_known;
   }
 };
 

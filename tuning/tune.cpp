@@ -93,7 +93,7 @@ class Searcher {
   Minimisation::Value value_of(const Assessment& one) const {
     const double failed = kFailed * (1 + one.lateness / static_cast<double>(problem_.runs()));
     const double goal = (problem_.goal().maximises ? -1 : 1) * one.goal / size_;
-    Minimisation::Value value{.objective = std::isfinite(goal) ? std::min(goal, kFailed) : failed,
+    Minimisation::Value value{.objective = one.is_known ? std::clamp(goal, -kFailed, kFailed) : failed,
                               .constraints = {}};
     for (const double distance : one.distance)
       value.constraints.push_back(std::isnan(distance) ? failed

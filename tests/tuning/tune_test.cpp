@@ -150,6 +150,17 @@ TEST_F(Tuning, MayMaximise) {
   EXPECT_GT(found.best.goal, 1.05 * delay.before().goal);
 }
 
+TEST_F(Tuning, KnowsNothingBetterThanNoLimit) {
+  TuneRequest request{.over = {"controller.gain"}, .goal = "longest_delay", .maximises = true};
+  request.sweep.experiment = MIXLOOP_EXPERIMENTS "/cart_pole.yaml";
+  request.sweep.overrides = {{"duration", "0.1 s"}, {"expect", "{}"}};
+  const Problem held = problem(request);
+  EXPECT_EQ(held.knobs().size(), 4U) << "of a list of lists";
+  const Tuned found = tuned(held, 20);
+  EXPECT_TRUE(found.best.is_feasible() && std::isinf(found.best.goal));
+  EXPECT_FALSE(found.improves);
+}
+
 TEST_F(Tuning, BeginsWhereBoundsAreMissedOrRunsDiverge) {
   TuneRequest request = gains();
   request.goal = "max_torque";
