@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "notation/document_path.hpp"
 #include "notation/formula.hpp"
+#include "notation/functions/elementary.hpp"
 #include "notation/utf8.hpp"
 #include "sweep/key.hpp"
 #include "sweep/written_value.hpp"
@@ -133,16 +133,18 @@ void add_knobs(const Asked& asked, const std::string& key, const Node& node, std
 
 }  // namespace
 
+// By the program's own functions, so that no C library decides a digit.
 double Knob::value(double share) const {
+  using mixloop_functions::exp, mixloop_functions::log;
   const double way = std::clamp(share, 0.0, 1.0);
   const double value =
-      is_logarithmic() ? least * std::pow(most / least, way) : least * (1 - way) + most * way;
+      is_logarithmic() ? least * exp(way * log(most / least)) : least * (1 - way) + most * way;
   return std::clamp(rounded(value), least, most);
 }
 
 double Knob::share(double value) const {
-  return is_logarithmic() ? std::log(value / least) / std::log(most / least)
-                          : (value - least) / (most - least);
+  using mixloop_functions::log;
+  return is_logarithmic() ? log(value / least) / log(most / least) : (value - least) / (most - least);
 }
 
 std::string Knob::text_of(double value) const {

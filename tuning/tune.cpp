@@ -18,6 +18,8 @@ constexpr double kInside =
     2e-4;  // so far, of a bound's size, the search stays from it: its last points hold it
 constexpr double kFirstStep = 0.1, kNextStep = 0.4, kLastStep = 1e-3;  // of simplices: the first one, from
                                                                        // one to the next, the least
+constexpr std::int64_t kAround = 20;  // looks all over, for each unknown and one more, at most
+constexpr double kWideStep = 0.3;     // where a descent has come to its end, from which others go on
 constexpr double kWorthwhile = 1e-3;  // what a simplex gains of the goal for the next one to be as large
 constexpr double kFailed = 10;        // what a failed run counts as, goals being 1 as they stand
 
@@ -60,17 +62,22 @@ class Searcher {
     const std::size_t unknowns = problem_.knobs().size();
     const Minimisation problem{.constraints = problem_.bounds().size(),
                                .at = [this](auto x) { return at(x); }};
-    const auto around = static_cast<int>((most_ - tuned_.evaluations) / 4);
+    const auto around = static_cast<int>(
+        std::min((most_ - tuned_.evaluations) / 4, kAround * static_cast<std::int64_t>(unknowns + 1)));
     around_ = tuned_.evaluations + around;
     if (around > static_cast<int>(2 * unknowns)) try {
         look_around(problem, unknowns, around);
       } catch (const Enough&) {
       }
     around_ = most_;
-    for (double step = kFirstStep; step >= kLastStep;) {
+    for (double widest = kFirstStep;; widest = kWideStep) {
       const Assessment before = tuned_.best;
-      go_down(problem, shares(before.values), step, step / 100);
-      if (!gained(before)) step *= kNextStep;
+      for (double step = widest; step >= kLastStep;) {
+        const Assessment last = tuned_.best;
+        go_down(problem, shares(last.values), step, step / 100);
+        if (!gained(last)) step *= kNextStep;
+      }
+      if (widest == kWideStep && !gained(before)) return;
     }
   }
 

@@ -26,9 +26,10 @@ struct Tuned {
 /// the goal.
 bool is_better(const Assessment& a, const Assessment& b, const Goal& goal);
 
-/// Searches by at most so many evaluations: a quarter of them all over between the knobs' ends, from the
-/// middle, the rest down from the best that there is, again and again on smaller simplices. Ends early where
-/// the problem isn't to go on. Only what holds all bounds exactly can be the best, unless nothing does.
+/// Searches by at most so many evaluations: a quarter of them, or 20 a knob and 20, all over between the
+/// knobs' ends, from the middle, the rest down from the best that there is, again and again on smaller
+/// simplices. Ends early where the problem isn't to go on. Only what holds all bounds exactly can be the
+/// best, unless nothing does.
 Tuned tune(const Problem& problem, std::int64_t evaluations,
            const std::function<void(const TuneProgress&)>& told);
 
