@@ -64,7 +64,7 @@ void add_runs_options(CLI::App& command, RunsLine& line, std::int64_t draws) {
       ->check(CLI::IsMember(spread_names()).description(""))
       ->type_name("DESIGN");
   command.add_option("--seed", line.seed, "of what is drawn, 1")->type_name("S");
-  command.add_option("--threads", line.threads, "how many runs at a time; one a core, by mpirun one a rank")
+  command.add_option("--threads", line.threads, "how many runs at a time; one a core")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command

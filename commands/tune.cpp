@@ -11,6 +11,7 @@
 #include "commands/sweep_progress.hpp"
 #include "commands/tuned.hpp"
 #include "commands/warnings.hpp"
+#include "loop/output_file.hpp"
 #include "notation/long_work.hpp"
 #include "notation/utf8.hpp"
 #include "report/progress.hpp"
@@ -61,6 +62,8 @@ std::filesystem::path file_for(const TuneLine& line, const std::filesystem::path
         in_quotes(file.string()) + " is the experiment that is tuned; expected another file, or a folder");
   if (!line.picture.empty()) terminal_for(line.picture, 1, 1);
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), none);
+  const OutputFile there(file);  // that it can be written is known before anything takes long
+  if (!line.picture.empty()) const OutputFile drawn(line.picture);
   return file;
 }
 

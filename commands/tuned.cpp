@@ -25,9 +25,10 @@ std::string number(double value) {
   return std::isinf(value) ? "no limit" : fmt::format("{:.9g}", value);
 }
 
-/// Where runs fail, what is asked of them is worse than any number.
-std::string number_of_runs(double value, const Assessment& assessment) {
-  return std::isinf(value) && assessment.failed > 0 ? "runs fail" : number(value);
+/// What isn't there in a run is worse than any number.
+std::string number_of_runs(double value, const Criteria::Criterion& criterion, const Assessment& assessment) {
+  if (std::isinf(value) && !criterion.margin) return assessment.failed > 0 ? "runs fail" : "never";
+  return number(value);
 }
 
 std::string row(const std::string& what, const std::string& before, const std::string& after,
@@ -42,9 +43,9 @@ std::string bounds_text(const TuneStory& story) {
   std::string text;
   for (std::size_t i = 0; i < problem.bounds().size(); ++i) {
     const Bound& bound = problem.bounds()[i];
-    text += row(labelled(problem.criteria()[bound.criterion]),
-                number_of_runs(problem.before().bounded[i], problem.before()),
-                number_of_runs(story.tuned.best.bounded[i], story.tuned.best),
+    const auto& criterion = problem.criteria()[bound.criterion];
+    text += row(labelled(criterion), number_of_runs(problem.before().bounded[i], criterion, problem.before()),
+                number_of_runs(story.tuned.best.bounded[i], criterion, story.tuned.best),
                 fmt::format("{} {} {:.9g}", story.tuned.best.held[i] ? "held," : "MISSED,", sign_of(bound),
                             bound.limit));
   }
@@ -69,7 +70,9 @@ std::string ending(const TuneStory& story) {
   std::string text;
   if (tuned.interrupted)
     text += fmt::format("  interrupted after {} evaluations; this is the best of them\n", tuned.evaluations);
-  if (!tuned.best.is_feasible())
+  if (!tuned.best.is_known)
+    text += fmt::format("  {} is there of no candidate; nothing is written\n", story.problem->goal().name);
+  else if (!tuned.best.is_feasible())
     text +=
         "  nothing holds all bounds, this comes nearest to it; nothing is written. Wider ends (--over "
         "KEY=FROM..TO), more\n  --evaluations or other bounds may help\n";
@@ -109,7 +112,7 @@ std::string head_of(const TuneStory& story) {
   std::string last;
   for (const Bound& bound : problem.bounds())
     if (bound.text != last) {
-      text += "\n#   subject to " + bound.text;
+      text += "\n#   subject to " + printable_name(bound.text);
       last = bound.text;
     }
   for (std::size_t i = 0; i < problem.knobs().size(); ++i) {
@@ -117,7 +120,7 @@ std::string head_of(const TuneStory& story) {
     text += fmt::format("\n#   {}: {} (was {})", knob.key, knob.text_of(story.tuned.best.values[i]),
                         knob.text_of(knob.now));
   }
-  return printable(text) + "\n";
+  return text + "\n";
 }
 
 std::string summary(const TuneStory& story) {
@@ -126,10 +129,10 @@ std::string summary(const TuneStory& story) {
   std::string text = fmt::format("{}: {} evaluations of {} run{} each", problem.setup().experiment().name,
                                  story.tuned.evaluations, problem.runs(), problem.runs() == 1 ? "" : "s");
   text += fmt::format("\n  {:<40}{:>16}{:>16}\n", "", "as it stands", "tuned");
-  const auto& unit = problem.criteria()[problem.goal().criteria[0]].unit;
-  text +=
-      row(problem.goal().name + (unit == "1" ? "" : " [" + unit + "]"), number_of_runs(before.goal, before),
-          number_of_runs(after.goal, after), problem.goal().maximises ? "maximised" : "minimised");
+  const auto& criterion = problem.criteria()[problem.goal().criteria[0]];
+  text += row(problem.goal().name + (criterion.unit == "1" ? "" : " [" + criterion.unit + "]"),
+              number_of_runs(before.goal, criterion, before), number_of_runs(after.goal, criterion, after),
+              problem.goal().maximises ? "maximised" : "minimised");
   text += bounds_text(story);
   if (before.failed + after.failed > 0)
     text += row("runs that fail", fmt::format("{}", before.failed), fmt::format("{}", after.failed));

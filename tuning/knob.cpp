@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "notation/document_path.hpp"
 #include "notation/formula.hpp"
@@ -139,7 +140,8 @@ double Knob::value(double share) const {
   const double way = std::clamp(share, 0.0, 1.0);
   const double value =
       is_logarithmic() ? least * exp(way * log(most / least)) : least * (1 - way) + most * way;
-  return std::clamp(rounded(value), least, most);
+  const bool is_zero = !is_logarithmic() && std::abs(value) < 1e-7 * (most - least);  // but for rounding
+  return std::clamp(is_zero ? 0 : rounded(value), least, most);
 }
 
 double Knob::share(double value) const {

@@ -77,7 +77,9 @@ Problem::Problem(const TuneRequest& request, int threads, std::function<bool()> 
       throw InputError("out_of_range", bound.place,
                        fmt::format("{} of the experiment as it stands is {}; expected a bound in numbers",
                                    criteria_[bound.criterion].name,
-                                   first.failed > 0 ? "not there, since runs fail" : "without limit"));
+                                   first.failed > 0                    ? "not there, since runs fail"
+                                   : criteria_[bound.criterion].margin ? "without limit"
+                                                                       : "never measured"));
   }
   before_ = judged(now, runs);
 }

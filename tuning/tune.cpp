@@ -18,10 +18,11 @@ constexpr double kInside =
     2e-4;  // so far, of a bound's size, the search stays from it: its last points hold it
 constexpr double kFirstStep = 0.1, kNextStep = 0.4, kLastStep = 1e-3;  // of simplices: the first one, from
                                                                        // one to the next, the least
-constexpr std::int64_t kAround = 20;  // looks all over, for each unknown and one more, at most
-constexpr double kWideStep = 0.3;     // where a descent has come to its end, from which others go on
-constexpr double kWorthwhile = 1e-3;  // what a simplex gains of the goal for the next one to be as large
-constexpr double kFailed = 10;        // what a failed run counts as, goals being 1 as they stand
+constexpr std::int64_t kAround = 20;     // looks all over, for each unknown and one more, at most
+constexpr std::size_t kMostAround = 60;  // unknowns that DIRECT takes
+constexpr double kWideStep = 0.3;        // where a descent has come to its end, from which others go on
+constexpr double kWorthwhile = 1e-3;     // what a simplex gains of the goal for the next one to be as large
+constexpr double kFailed = 10;           // what a failed run counts as, goals being 1 as they stand
 
 /// What its bounds are missed by in all.
 double missed(const Assessment& one) {
@@ -65,7 +66,7 @@ class Searcher {
     const auto around = static_cast<int>(
         std::min((most_ - tuned_.evaluations) / 4, kAround * static_cast<std::int64_t>(unknowns + 1)));
     around_ = tuned_.evaluations + around;
-    if (around > static_cast<int>(2 * unknowns)) try {
+    if (around > static_cast<int>(2 * unknowns) && unknowns <= kMostAround) try {
         look_around(problem, unknowns, around);
       } catch (const Enough&) {
       }

@@ -42,6 +42,7 @@ TEST_F(WhatIsTuned, HasTheUnitThatStandsInTheFile) {
   EXPECT_FALSE(found[1].is_logarithmic()) << "from 0";
   EXPECT_EQ(found[1].unit, "s");
   EXPECT_EQ(found[1].text_of(found[1].value(1)), "0.0003 s");
+  EXPECT_EQ(found[1].text_of(found[1].value(1e-9)), "0 s") << "but for rounding";
   EXPECT_EQ(knobs({"scene.constants.L1=200 mm..0.4 m"})[0].least, 20) << "it stands in cm";
 }
 
