@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "sweep/sweep.hpp"
-#include "sweep/kernel/closed_loops.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -16,7 +14,9 @@
 #include "processes/called_as.hpp"
 #include "processes/command_line.hpp"
 #include "report/progress.hpp"
+#include "sweep/kernel/closed_loops.hpp"
 #include "sweep/leading.hpp"
+#include "sweep/sweep.hpp"
 #include "sweep/written_run.hpp"
 
 namespace mixloop {

@@ -10,6 +10,7 @@
 #include "loop/inputs.hpp"
 #include "loop/origin.hpp"
 #include "notation/sha256.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
@@ -34,16 +35,6 @@ std::string hash_of(const Experiment& experiment) {
     text.append(std::istreambuf_iterator<char>(samples), {});
   }
   return sha256_hex(text);
-}
-
-/// In single quotes, as a shell takes it.
-std::string quoted(const std::string& text) {
-  if (!text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                              "._-+=/,:@%") == std::string::npos)
-    return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
-  return result + "'";
 }
 
 }  // namespace
@@ -97,8 +88,8 @@ void Sweep::require_some_run() const {
 }
 
 std::string Sweep::command(std::int64_t run) const {
-  std::string text = "mixloop simulate " + quoted(setup_.request().experiment.string());
-  const auto add = [&](const Override& one) { text += " --set " + quoted(one.key + "=" + one.value); };
+  std::string text = "mixloop simulate " + shell_word(setup_.request().experiment.string());
+  const auto add = [&](const Override& one) { text += " --set " + shell_word(one.key + "=" + one.value); };
   for (const Override& one : setup_.request().overrides) add(one);
   for (const Override& one : setup_.design().overrides(run)) add(one);
   return text;

@@ -10,6 +10,7 @@
 #include "notation/nearest.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
+#include "notation/words.hpp"
 #include "sweep/written_value.hpp"
 
 namespace mixloop {
@@ -62,7 +63,7 @@ Variation range_of(const Written& written, std::size_t dots) {
   const std::size_t colon = value.rfind(':');
   if (colon == std::string::npos || colon < dots)
     written.fail("invalid_range", in_quotes(value) + " doesn't say how many values; " + kExpected);
-  const std::string many = trimmed(std::string_view(value).substr(colon + 1));
+  const std::string many(trimmed(std::string_view(value).substr(colon + 1)));
   std::int64_t count = 0;
   const auto [end, error] = std::from_chars(many.data(), many.data() + many.size(), count);
   if (error != std::errc() || end != many.data() + many.size() || many.empty())
@@ -70,8 +71,8 @@ Variation range_of(const Written& written, std::size_t dots) {
   if (count < 1 || count > kMostValues)
     written.fail("out_of_range",
                  fmt::format("{} values of '{}'; expected 1 to {}", count, written.key, kMostValues));
-  auto ends = numbers_in({trimmed(std::string_view(value).substr(0, dots)),
-                          trimmed(std::string_view(value).substr(dots + 2, colon - dots - 2))});
+  auto ends = numbers_in({std::string(trimmed(std::string_view(value).substr(0, dots))),
+                          std::string(trimmed(std::string_view(value).substr(dots + 2, colon - dots - 2)))});
   if (!ends)
     written.fail("invalid_range",
                  in_quotes(value) + " has not two numbers of one unit; " + std::string(kExpected));
@@ -111,7 +112,7 @@ Variation sampled(const Written& written) {
   static constexpr const char* kExpected = "expected normal(mean, std) or uniform(from, to)";
   const std::string& value = written.value;
   const std::size_t open = value.find('(');
-  const std::string name = trimmed(std::string_view(value).substr(0, open));
+  const std::string name(trimmed(std::string_view(value).substr(0, open)));
   if (std::ranges::find(kNames, name) == kNames.end())
     written.fail("unknown_value", in_quotes(name) + " is nothing to sample from" + suggestion(name, kNames));
   if (open == std::string::npos || !value.ends_with(')'))
@@ -137,8 +138,8 @@ Written written_in(const std::string& text, const std::string& option, const cha
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError("invalid_override", {option + " " + text}, std::string("expected ") + example);
-  Written written{trimmed(std::string_view(text).substr(0, equals)),
-                  trimmed(std::string_view(text).substr(equals + 1)),
+  Written written{std::string(trimmed(std::string_view(text).substr(0, equals))),
+                  std::string(trimmed(std::string_view(text).substr(equals + 1))),
                   {}};
   written.place = {option + " " + written.key};
   return written;
@@ -168,7 +169,7 @@ Variation parse_sampled(const std::string& text) {
 
 Variation read_varied(const Node::Entry& entry) {
   if (entry.value->kind == Node::Kind::scalar)
-    return varied({entry.key, trimmed(entry.value->text), entry.value->place});
+    return varied({entry.key, std::string(trimmed(entry.value->text)), entry.value->place});
   std::vector<std::string> texts;
   for (const auto& item : items_of(entry.value, "the values of a varied entry"))
     texts.push_back(item->kind == Node::Kind::scalar ? item->text : json_of(*item).dump());
@@ -179,8 +180,8 @@ Variation read_varied(const Node::Entry& entry) {
 }
 
 Variation read_sampled(const Node::Entry& entry) {
-  return sampled(
-      {entry.key, trimmed(mixloop::text_of(*entry.value, "what is sampled from")), entry.value->place});
+  return sampled({entry.key, std::string(trimmed(mixloop::text_of(*entry.value, "what is sampled from"))),
+                  entry.value->place});
 }
 
 }  // namespace mixloop

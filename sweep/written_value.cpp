@@ -4,13 +4,9 @@
 #include <charconv>
 #include <cmath>
 
-namespace mixloop {
+#include "notation/words.hpp"
 
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return "";
-  return std::string(text.substr(begin, text.find_last_not_of(" \t") + 1 - begin));
-}
+namespace mixloop {
 
 std::optional<Measure> measure_in(const std::string& text) {
   Measure measure;
@@ -30,7 +26,7 @@ std::vector<std::string> parts_of(std::string_view text) {
     if (i < text.size() && (text[i] == '[' || text[i] == '{' || text[i] == '(')) ++depth;
     if (i < text.size() && (text[i] == ']' || text[i] == '}' || text[i] == ')')) --depth;
     if (i < text.size() && (text[i] != ',' || depth > 0)) continue;
-    parts.push_back(trimmed(text.substr(begin, i - begin)));
+    parts.emplace_back(trimmed(text.substr(begin, i - begin)));
     begin = i + 1;
   }
   return parts;

@@ -8,9 +8,6 @@
 
 namespace mixloop {
 
-/// Without blanks at its ends.
-std::string trimmed(std::string_view text);
-
 /// A number and the unit behind it, as they are written.
 struct Measure {
   double number = 0;

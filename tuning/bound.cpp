@@ -8,6 +8,7 @@
 #include "notation/document.hpp"
 #include "notation/formula.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 #include "sweep/written_value.hpp"
 
 namespace mixloop {
@@ -34,7 +35,7 @@ std::vector<std::string> limits_in(const std::string& text, const Place& place) 
   if (close == std::string::npos)
     throw InputError("invalid_range", place, in_quotes(text) + " lacks its ']'; " + kExample);
   std::vector<std::string> limits = parts_of(std::string_view(text).substr(1, close - 1));
-  const std::string unit = trimmed(text.substr(close + 1));
+  const std::string unit(trimmed(std::string_view(text).substr(close + 1)));
   for (std::string& limit : limits)
     if (const auto measure = measure_in(limit); measure && measure->unit.empty() && !unit.empty())
       limit += " " + unit;
@@ -59,7 +60,7 @@ Goal read_goal(const std::string& name, bool maximises, const Criteria& criteria
         "missing_key", {"tune"},
         "nothing says what is to be tuned for; expected --minimise NAME or --maximise NAME, e.g. "
         "--minimise max_position_error");
-  Goal goal{.name = trimmed(name), .criteria = {}, .maximises = maximises};
+  Goal goal{.name = std::string(trimmed(name)), .criteria = {}, .maximises = maximises};
   goal.criteria = criteria.named(goal.name, place);
   for (const std::size_t one : goal.criteria)
     if (criteria[one].unit != criteria[goal.criteria[0]].unit)
@@ -75,8 +76,8 @@ std::vector<Bound> read_bounds(const std::string& text, const Criteria& criteria
   if (at == std::string::npos)
     throw InputError("invalid_range", place, "no '<' or '>' in it; " + std::string(kExample));
   const bool or_equal = at + 1 < text.size() && text[at + 1] == '=';
-  const std::string name = trimmed(text.substr(0, at));
-  const std::string limit = trimmed(text.substr(at + (or_equal ? 2 : 1)));
+  const std::string name(trimmed(std::string_view(text).substr(0, at)));
+  const std::string limit(trimmed(std::string_view(text).substr(at + (or_equal ? 2 : 1))));
   if (limit.empty())
     throw InputError("invalid_range", place, "nothing stands behind its sign; " + std::string(kExample));
   const auto found = criteria.named(name, place);
@@ -87,7 +88,7 @@ std::vector<Bound> read_bounds(const std::string& text, const Criteria& criteria
                                  limits.size(), found.size(), found.size()));
   std::vector<Bound> bounds;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    bounds.push_back({.text = trimmed(text),
+    bounds.push_back({.text = std::string(trimmed(text)),
                       .place = place,
                       .criterion = found[i],
                       .is_upper = text[at] == '<',

@@ -11,6 +11,7 @@
 #include "notation/formula.hpp"
 #include "notation/functions/elementary.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 #include "sweep/key.hpp"
 #include "sweep/written_value.hpp"
 
@@ -31,7 +32,7 @@ struct Asked {
 
 Asked asked_in(const std::string& text) {
   const std::size_t equals = text.find('=');
-  Asked asked{trimmed(text.substr(0, equals)), "", "", {}};
+  Asked asked{std::string(trimmed(std::string_view(text).substr(0, equals))), "", "", {}};
   asked.place = {"--over " + asked.key};
   if (asked.key.empty())
     throw InputError("missing_key", {"--over"},
@@ -43,8 +44,8 @@ Asked asked_in(const std::string& text) {
   if (dots == std::string::npos)
     asked.fail("invalid_range",
                in_quotes(ends) + " has no two ends; expected FROM..TO, e.g. --over controller.kp=10..1000");
-  asked.from = trimmed(ends.substr(0, dots));
-  asked.to = trimmed(ends.substr(dots + 2));
+  asked.from = trimmed(std::string_view(ends).substr(0, dots));
+  asked.to = trimmed(std::string_view(ends).substr(dots + 2));
   return asked;
 }
 
