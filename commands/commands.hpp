@@ -13,6 +13,7 @@ void add_run_command(CLI::App& app, int& status);
 void add_control_command(CLI::App& app, int& status);
 void add_replay_command(CLI::App& app, int& status);
 void add_sweep_command(CLI::App& app, int& status);
+void add_tune_command(CLI::App& app, int& status);
 void add_track_command(CLI::App& app, int& status);
 void add_dynamics_command(CLI::App& app, int& status);
 void add_import_command(CLI::App& app, int& status);

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   mixloop::add_control_command(app, status);
   mixloop::add_track_command(app, status);
   mixloop::add_sweep_command(app, status);
+  mixloop::add_tune_command(app, status);
   mixloop::add_import_command(app, status);
   mixloop::add_assemble_command(app, status);
   mixloop::add_dynamics_command(app, status);

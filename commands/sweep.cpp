@@ -8,9 +8,9 @@
 
 #include "commands/commands.hpp"
 #include "commands/modules.hpp"
+#include "commands/runs_line.hpp"
 #include "commands/swept.hpp"
 #include "notation/utf8.hpp"
-#include "notation/value.hpp"
 #include "processes/called_as.hpp"
 #include "processes/command_line.hpp"
 #include "report/progress.hpp"
@@ -22,45 +22,12 @@
 namespace mixloop {
 namespace {
 
-struct SweepLine : CommonOptions {
-  std::string file, case_name;
-  std::vector<std::string> vary, sample;
-  std::optional<std::int64_t> runs, write_run;
-  std::optional<std::uint64_t> seed;
-  std::string design, shard, settled_within;
+struct SweepLine : RunsLine {
+  std::optional<std::int64_t> write_run;
+  std::string shard;
   bool hashes = false;
   SweepOptions how;
-  Evaluation evaluation = Evaluation::machine_code;
 };
-
-/// What the file asks for, if it is a sweep's, with what the line says on top.
-SweepRequest request_of(SweepLine& line) {
-  SweepRequest request;
-  if (is_sweep(line.file)) {
-    request = read_sweep(line.file);
-  } else {
-    line.take_case(line.file, line.case_name);
-    request.experiment = line.file;
-  }
-  for (const Override& one : line.overrides()) request.overrides.push_back(one);
-  for (const auto& text : line.vary) request.design.varied.push_back(parse_varied(text));
-  for (const auto& text : line.sample) request.design.sampled.push_back(parse_sampled(text));
-  if (line.runs) request.design.draws = *line.runs, request.draws_given = true;
-  if (line.seed) request.design.seed = *line.seed;
-  if (!line.design.empty()) {
-    const auto spread = spread_named(line.design);
-    request.spread_given = spread.has_value();
-    if (spread) request.design.spread = *spread;
-    if (!spread && !request.design.sampled.empty())
-      throw InputError("out_of_range", {"--design grid"},
-                       "a grid is of what is listed (--vary), and what is sampled has none; expected latin, "
-                       "sobol or random");
-  }
-  if (!line.settled_within.empty())
-    request.settled_within = number_of(*parse_document(line.settled_within, "--settled-within"), kLength,
-                                       "what counts as settled");
-  return request;
-}
 
 /// `3/8`: the third of eight.
 Part part_of(const std::string& text) {
@@ -98,6 +65,7 @@ int run(SweepLine& line) {
   stop.turn_on_signals();
   const ShownWork work(stop);
   line.how.peers = peers_here();
+  line.how.threads = line.threads;
   if (line.how.threads == 0)
     line.how.threads =
         line.how.peers != nullptr ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -135,43 +103,13 @@ void add_sweep_command(CLI::App& app, int& status) {
   command->add_option("experiment", options->file, "an experiment's file, or a sweep's (*.sweep.yaml)")
       ->required()
       ->type_name("EXPERIMENT");
-  const auto add_list = [&](const char* name, std::vector<std::string>& list, const char* what,
-                            const char* type) {
-    command->add_option(name, list, what)
-        ->type_name(type)
-        ->take_all()
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  };
-  add_list(
-      "--vary", options->vary,
-      "go through values of an entry: FROM..TO:COUNT evenly (0..5 kg:11), or listed (0,2,5 kg); of several "
-      "entries all combinations; keys as of --set, a scene's own by scene.KEY",
-      "KEY=VALUES");
-  add_list("--sample", options->sample, "draw an entry: normal(MEAN, STD) or uniform(FROM, TO), with units",
-           "KEY=DISTRIBUTION");
-  command
-      ->add_option("--runs", options->runs,
-                   "how many are drawn (at each combination of what is varied), 1000")
-      ->type_name("N")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
-  command
-      ->add_option("--design", options->design,
-                   "how what is drawn is spread: latin (default), sobol or random; grid: all is varied")
-      ->check(CLI::IsMember(spread_names()).description(""))
-      ->type_name("DESIGN");
-  command->add_option("--seed", options->seed, "of what is drawn, 1")->type_name("S");
+  add_runs_options(*command, *options, 1000);
   command
       ->add_option(
           "--out", options->how.out,
           "keep table.csv, table.h5 and summary.json in this folder; interrupted or killed, the same "
           "command goes on there")
       ->type_name("DIR");
-  command
-      ->add_option("--threads", options->how.threads,
-                   "how many runs at a time; one a core, by mpirun one a rank")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
   command
       ->add_option_function<std::string>(
           "--device",
@@ -189,18 +127,11 @@ void add_sweep_command(CLI::App& app, int& status) {
   command->add_flag("--merge", options->how.merges, "make the table of what shards have done");
   add_seconds_option(*command, "--patience", options->how.patience,
                      "seconds of silence after which a rank of mpirun is lost, and others do its runs, 10");
-  command
-      ->add_option("--settled-within", options->settled_within,
-                   "tell when the position error has come below this for good, e.g. '2 mm'")
-      ->type_name("LENGTH");
   command->add_flag("--hashes", options->hashes, "tell each trajectory's SHA-256, which takes its time");
   command
       ->add_option("--write-run", options->write_run,
                    "write the experiment of run K alone, into the current folder or --out, and run nothing")
       ->type_name("K");
-  add_common_options(*command, *options);
-  add_case_option(*command, options->case_name);
-  add_evaluation_option(*command, options->evaluation);
   command->footer(
       "A sweep's file has the same, and what its runs are to hold (docs/sweeps.md); mixloop track holds it, "
       "too.\n"
@@ -216,7 +147,6 @@ void add_sweep_command(CLI::App& app, int& status) {
       "--out results/payload\n"
       "  mixloop sweep experiments/payload.sweep.yaml --out results/payload --shard 3/8\n"
       "  mpirun -n 8 --enable-recovery mixloop sweep experiments/payload.sweep.yaml --out results/payload");
-  options->how.threads = 0;
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -23,21 +23,21 @@ Matrix scaled_gain(const Feedback& feedback, double factor, Eigen::Index motor =
   return proportional + feedback.model;
 }
 
-std::optional<double> longest_tick(const LinearLoop& loop, double delay, double tick) {
+}  // namespace
+
+std::optional<double> longest_tick(const LinearLoop& loop, double delay, double tick, double enough) {
   // Ticks far below the delay make a long queue of commands; the loop is as stable as at a tenth of it.
   const double start = std::max(tick / kFarTicks, delay / 10);
   const auto limit = first_unstable(
       [&](double T) {
         return sampled_radius(loop, loop.feedback.gain(), {T, delay});
       },
-      start, tick * kFarTicks, stretched);
+      start, tick * kFarTicks, stretched, enough);
   return limit == start ? 0 : limit;
 }
 
-}  // namespace
-
 std::optional<double> first_unstable(const std::function<double(double)>& radius, double start, double end,
-                                     const std::function<double(double)>& next) {
+                                     const std::function<double(double)>& next, double enough) {
   if (grows(radius(start))) return start;
   for (double stable = start; stable != end;) {
     work_goes_on();
@@ -45,6 +45,7 @@ std::optional<double> first_unstable(const std::function<double(double)>& radius
     const double ahead = upwards ? std::min(next(stable), end) : std::max(next(stable), end);
     if (!grows(radius(ahead))) {
       stable = ahead;
+      if (upwards && stable >= enough) return std::nullopt;
       continue;
     }
     double unstable = ahead;
@@ -57,12 +58,12 @@ std::optional<double> first_unstable(const std::function<double(double)>& radius
   return std::nullopt;
 }
 
-std::optional<double> longest_delay(const LinearLoop& loop, double tick, double step) {
+std::optional<double> longest_delay(const LinearLoop& loop, double tick, double step, double enough) {
   return first_unstable(
       [&](double delay) {
         return sampled_radius(loop, loop.feedback.gain(), {tick, delay});
       },
-      0, kFarDelay * tick, [step](double delay) { return delay + step; });
+      0, kFarDelay * tick, [step](double delay) { return delay + step; }, enough);
 }
 
 Limits limits_of(const LinearLoop& loop, const Sampling& sampling) {

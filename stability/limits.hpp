@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,15 +25,26 @@ struct Limits {
   std::vector<std::optional<double>> most_gain_of_motor;  ///< n_u: on a motor's own
 };
 
+/// For whoever seeks the least of several limits: as far as there is no need to look.
+constexpr double kFarEnough = std::numeric_limits<double>::infinity();
+
 Limits limits_of(const LinearLoop& loop, const Sampling& sampling);
 
+/// The longest tick, s, at which the loop is stable with this delay, looking on from a hundredth of `tick`; 0
+/// where none is short enough, empty where 100 of it aren't too long, or it is known to be `enough` or more.
+std::optional<double> longest_tick(const LinearLoop& loop, double delay, double tick,
+                                   double enough = kFarEnough);
+
 /// The longest delay at which the loop is stable with this tick, s; 0 where it isn't without one, empty where
-/// 20 ticks aren't too long. Looks every `step` of a second: narrower gaps are not seen.
-std::optional<double> longest_delay(const LinearLoop& loop, double tick, double step);
+/// 20 ticks aren't too long, or it is known to be `enough` or more. Looks every `step` of a second: narrower
+/// gaps are not seen.
+std::optional<double> longest_delay(const LinearLoop& loop, double tick, double step,
+                                    double enough = kFarEnough);
 
 /// The first x, going on from `start` by `next`, where `radius` passes 1 (see grows), to 1e-7 of it by
-/// bisection; empty where it doesn't up to `end`. `start` itself where it is unstable there.
+/// bisection; empty where it doesn't up to `end`, or on the way up to a look at or past `enough`. `start`
+/// itself where it is unstable there.
 std::optional<double> first_unstable(const std::function<double(double)>& radius, double start, double end,
-                                     const std::function<double(double)>& next);
+                                     const std::function<double(double)>& next, double enough = kFarEnough);
 
 }  // namespace mixloop

@@ -10,9 +10,13 @@
 namespace mixloop {
 namespace {
 
-Equations::Workspace linear_dynamics(const std::shared_ptr<const Scene>& scene,
-                                     const std::vector<double>& parameters, Evaluation how) {
-  return {equations_of(scene, how, {Purpose::inverse_dynamics, Purpose::linearisation}), parameters};
+/// A scene that is made for this one linearisation is on no shelf.
+Equations::Workspace linear_dynamics(const Experiment& experiment, const std::shared_ptr<const Scene>& scene,
+                                     const std::vector<double>& parameters) {
+  const bool shared = scene == experiment.scene || scene == experiment.controller_scene;
+  return {shelved_equations(shared ? experiment.shelf.get() : nullptr, scene, experiment.evaluation,
+                            {Purpose::inverse_dynamics, Purpose::linearisation}),
+          parameters};
 }
 
 }  // namespace
@@ -22,9 +26,9 @@ Linearisation::Linearisation(const Experiment& experiment)
       parameters_(experiment.plant_parameters),
       settings_(experiment.controller),
       of_model_(model_coordinates(experiment)),
-      plant_(linear_dynamics(experiment.scene, experiment.plant_parameters, experiment.evaluation)),
-      model_(linear_dynamics(fully_driven(experiment.controller_scene), experiment.controller_parameters,
-                             experiment.evaluation)) {}
+      plant_(linear_dynamics(experiment, experiment.scene, experiment.plant_parameters)),
+      model_(linear_dynamics(experiment, fully_driven(experiment.controller_scene),
+                             experiment.controller_parameters)) {}
 
 LinearLoop Linearisation::at(const Reference& reference, double t) {
   const PsiMotion at = wanted_state(settings_, *scene_, reference);

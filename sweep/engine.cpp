@@ -51,6 +51,12 @@ std::vector<Outcome> run_one_by_one(std::span<const PreparedRun> runs, const Tel
 
 std::vector<Outcome> run_batch(const Setup& setup, const Telling& telling, const Engine& engine,
                                std::int64_t first, std::int64_t count, const std::function<bool()>& goes_on) {
+  return run_batch([&](std::int64_t run) { return setup.prepared(run); }, telling, engine, first, count,
+                   goes_on);
+}
+
+std::vector<Outcome> run_batch(const Prepare& prepare, const Telling& telling, const Engine& engine,
+                               std::int64_t first, std::int64_t count, const std::function<bool()>& goes_on) {
   const std::int64_t together = std::max<std::int64_t>(8, engine.batch());
   std::vector<Outcome> outcomes;
   for (std::int64_t begin = first; begin < first + count; begin += together) {
@@ -59,7 +65,7 @@ std::vector<Outcome> run_batch(const Setup& setup, const Telling& telling, const
     std::vector<PreparedRun> ready;
     std::vector<Outcome> refused;
     for (std::int64_t run = begin; run < end; ++run) try {
-        ready.push_back(setup.prepared(run));
+        ready.push_back(prepare(run));
       } catch (const InputError& error) {
         refused.push_back(failure(run, RunEnd::refused, error.code, telling));
       }

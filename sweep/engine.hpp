@@ -46,8 +46,13 @@ Outcome outcome_of(const PreparedRun& run, const Measures& measures, const Telli
 /// One run after the other, as `mixloop simulate` does it.
 std::vector<Outcome> run_one_by_one(std::span<const PreparedRun> runs, const Telling& telling);
 
+/// Makes a run ready; throws InputError where it can't be run.
+using Prepare = std::function<PreparedRun(std::int64_t run)>;
+
 /// Runs `first` to `first` + `count` - 1 of a sweep, prepared and gone through; those that can't be prepared
 /// are refused. Fewer where `goes_on` says so.
+std::vector<Outcome> run_batch(const Prepare& prepare, const Telling& telling, const Engine& engine,
+                               std::int64_t first, std::int64_t count, const std::function<bool()>& goes_on);
 std::vector<Outcome> run_batch(const Setup& setup, const Telling& telling, const Engine& engine,
                                std::int64_t first, std::int64_t count, const std::function<bool()>& goes_on);
 

@@ -52,17 +52,17 @@ Setup::Setup(const SweepRequest& request, Evaluation evaluation)
   experiment_ = std::move(experiment);
 }
 
-NodePtr Setup::document(std::int64_t run) const {
+NodePtr Setup::document(const std::vector<Override>& values) const {
   NodePtr document = document_;
-  for (const auto& [key, value] : design_.overrides(run))
+  for (const auto& [key, value] : values)
     if (!is_of_scene(key)) document = override_entry(document, key, value);
   return document;
 }
 
-ExperimentScenes Setup::scenes(std::int64_t run, const NodePtr& document) const {
+ExperimentScenes Setup::scenes(const std::vector<Override>& values, const NodePtr& document) const {
   if (!varies_scene_ && !varies_controller_scene_) return scenes_;
   std::vector<Override> overrides = request_.overrides;
-  for (auto& one : design_.overrides(run)) overrides.push_back(std::move(one));
+  overrides.insert(overrides.end(), values.begin(), values.end());
   return load_scenes(document, request_.experiment, overrides);
 }
 
@@ -83,10 +83,10 @@ std::shared_ptr<const Plan> Setup::plan_of(const Experiment& experiment) const {
   return plans_.emplace(ground, std::move(plan)).first->second;
 }
 
-PreparedRun Setup::prepared(std::int64_t run) const {
-  const NodePtr document = this->document(run);
-  PreparedRun prepared{.run = run,
-                       .experiment = read_experiment(document, request_.experiment, scenes(run, document))};
+PreparedRun Setup::prepared(std::int64_t run, const std::vector<Override>& values) const {
+  const NodePtr document = this->document(values);
+  PreparedRun prepared{
+      .run = run, .experiment = read_experiment(document, request_.experiment, scenes(values, document))};
   Experiment& experiment = prepared.experiment;
   experiment.evaluation = evaluation_;
   if (experiment.scene == scenes_.scene && experiment.controller_scene == scenes_.controller_scene)

@@ -31,10 +31,12 @@ class Setup {
   const Experiment& experiment() const { return *experiment_; }
 
   /// The experiment that `mixloop simulate` would run, to the bit. Throws InputError where it can't be run.
-  PreparedRun prepared(std::int64_t run) const;
+  PreparedRun prepared(std::int64_t run) const { return prepared(run, design_.overrides(run)); }
+  /// The same with other values of what is varied; `run` is what it is called.
+  PreparedRun prepared(std::int64_t run, const std::vector<Override>& values) const;
   /// Its document, and those of its scenes, which are put together for it where they are varied.
-  NodePtr document(std::int64_t run) const;
-  ExperimentScenes scenes(std::int64_t run, const NodePtr& document) const;
+  NodePtr document(const std::vector<Override>& values) const;
+  ExperimentScenes scenes(const std::vector<Override>& values, const NodePtr& document) const;
 
   bool varies_scene() const { return varies_scene_; }
   /// How the equations are evaluated: of scenes that vary by the interpreter, whose bits are the same, since

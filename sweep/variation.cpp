@@ -11,42 +11,12 @@
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
 #include "notation/words.hpp"
+#include "sweep/written_value.hpp"
 
 namespace mixloop {
 namespace {
 
 constexpr std::int64_t kMostValues = 1'000'000;
-
-/// A number and the unit behind it.
-struct Measure {
-  double number = 0;
-  std::string unit;
-};
-
-std::optional<Measure> measure_in(const std::string& text) {
-  Measure measure;
-  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), measure.number);
-  if (error != std::errc() || end == begin || !std::isfinite(measure.number)) return std::nullopt;
-  measure.unit = trimmed({end, text.data() + text.size()});
-  if (measure.unit.find_first_of("+-0123456789.,;'\"[]{}") == 0) return std::nullopt;
-  return measure;
-}
-
-/// Parts at the commas that stand in no brackets.
-std::vector<std::string> parts_of(std::string_view text) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  int depth = 0;
-  for (std::size_t i = 0; i <= text.size(); ++i) {
-    if (i < text.size() && (text[i] == '[' || text[i] == '{' || text[i] == '(')) ++depth;
-    if (i < text.size() && (text[i] == ']' || text[i] == '}' || text[i] == ')')) --depth;
-    if (i < text.size() && (text[i] != ',' || depth > 0)) continue;
-    parts.emplace_back(trimmed(text.substr(begin, i - begin)));
-    begin = i + 1;
-  }
-  return parts;
-}
 
 /// Numbers of one unit, which those that have none share; nothing where a text is no number, or units differ.
 std::optional<Variation> numbers_in(const std::vector<std::string>& texts) {

@@ -23,27 +23,31 @@ std::filesystem::path way(const std::filesystem::path& from, const std::filesyst
 
 }  // namespace
 
-void write_run(const std::filesystem::path& file, const Setup& setup, std::int64_t run) {
+void write_experiment(const std::filesystem::path& file, const std::string& head, const Setup& setup,
+                      const std::vector<Override>& values) {
   const auto& source = setup.request().experiment;
-  NodePtr document = as_read_from(setup.document(run), way(file.parent_path(), source.parent_path()));
-  const auto overrides = setup.design().overrides(run);
-  std::string set;
-  for (const auto& [key, value] : overrides) set += fmt::format("#   {}: {}\n", key, value);
-  const std::string head =
-      fmt::format("# Run {} of a sweep of {}, with\n{}", run, source.filename().string(), set);
-
+  const NodePtr as_read = setup.document(values);
+  NodePtr document = as_read_from(as_read, way(file.parent_path(), source.parent_path()));
   const bool changes_scene =
       setup.varies_scene() || std::ranges::any_of(setup.request().overrides,
                                                   [](const Override& one) { return is_of_scene(one.key); });
   if (changes_scene) {
     auto scene = file;
     scene.replace_extension(".scene.yaml");
-    write_file(scene, head + document_text(*setup.scenes(run, setup.document(run)).document));
+    write_file(scene, head + document_text(*setup.scenes(values, as_read).document));
     document = override_entry(document, "scene", "'" + scene.filename().string() + "'");
   }
   auto alone = std::make_shared<Node>(*document);
   std::erase_if(alone->entries, [](const Node::Entry& entry) { return entry.key == "cases"; });
   write_file(file, head + document_text(*alone));
+}
+
+void write_run(const std::filesystem::path& file, const Setup& setup, std::int64_t run) {
+  const auto values = setup.design().overrides(run);
+  std::string head =
+      fmt::format("# Run {} of a sweep of {}, with\n", run, setup.request().experiment.filename().string());
+  for (const auto& [key, value] : values) head += fmt::format("#   {}: {}\n", key, value);
+  write_experiment(file, head, setup, values);
 }
 
 }  // namespace mixloop

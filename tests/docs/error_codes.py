@@ -8,7 +8,7 @@ import os
 import re
 import sys
 
-ROOMS = ("notation dynamics import integrators planner controller plant loop library stability sweep runtime processes watch report view "
+ROOMS = ("notation dynamics import integrators planner controller plant loop library stability sweep tuning runtime processes watch report view "
          "commands").split()
 # A code is the first argument of what is thrown or told.
 THROWN = re.compile(r"""\b(?:InputError|RunFault|Error|fail|error|report)\s*[({]\s*(?:json,\s*program,\s*)?
