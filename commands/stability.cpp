@@ -19,6 +19,7 @@
 #include "report/progress.hpp"
 #include "stability/confirmation.hpp"
 #include "stability/map.hpp"
+#include "sweep/written_value.hpp"
 
 namespace mixloop {
 namespace {
@@ -41,20 +42,6 @@ std::string name_of(const Variant& variant) {
   return text.empty() ? "as it stands" : text;
 }
 
-/// Splits at commas outside of brackets.
-std::vector<std::string> values_in(const std::string& text) {
-  std::vector<std::string> values{""};
-  int depth = 0;
-  for (const char c : text) {
-    depth += (c == '[' || c == '{') - (c == ']' || c == '}');
-    if (c == ',' && depth == 0)
-      values.emplace_back();
-    else
-      values.back() += c;
-  }
-  return values;
-}
-
 /// Every combination of the varied values, the experiment as it stands first.
 std::vector<Variant> combinations(const std::vector<std::string>& vary) {
   std::vector<Variant> all{{}};
@@ -62,7 +49,7 @@ std::vector<Variant> combinations(const std::vector<std::string>& vary) {
     const auto [key, list] = parse_override(text);
     std::vector<Variant> longer;
     for (const auto& variant : all)
-      for (const auto& value : values_in(list)) {
+      for (const auto& value : parts_of(list)) {
         longer.push_back(variant);
         longer.back().push_back({key, value});
       }
