@@ -16,6 +16,7 @@
 #include "processes/called_as.hpp"
 #include "processes/command_line.hpp"
 #include "report/progress.hpp"
+#include "sweep/command_text.hpp"
 #include "sweep/leading.hpp"
 #include "sweep/written_run.hpp"
 
@@ -33,15 +34,36 @@ struct SweepLine : CommonOptions {
   Evaluation evaluation = Evaluation::machine_code;
 };
 
+/// The line again, without where it is kept and by whom it is run.
+std::string called(const SweepLine& line) {
+  std::string text = "mixloop sweep " + shell_quoted(line.file);
+  const auto add = [&](const char* option, const std::string& value) {
+    text += fmt::format(" {} {}", option, shell_quoted(value));
+  };
+  if (!line.case_name.empty()) add("--case", line.case_name);
+  for (const auto& one : line.sets) add("--set", one);
+  for (const auto& one : line.vary) add("--vary", one);
+  for (const auto& one : line.sample) add("--sample", one);
+  if (line.runs) add("--runs", std::to_string(*line.runs));
+  if (!line.design.empty()) add("--design", line.design);
+  if (line.seed) add("--seed", std::to_string(*line.seed));
+  if (!line.settled_within.empty()) add("--settled-within", line.settled_within);
+  if (line.hashes) text += " --hashes";
+  if (line.evaluation == Evaluation::reference) add("--evaluation", "reference");
+  return text;
+}
+
 /// What the file asks for, if it is a sweep's, with what the line says on top.
 SweepRequest request_of(SweepLine& line) {
   SweepRequest request;
+  const std::string asked = called(line);
   if (is_sweep(line.file)) {
     request = read_sweep(line.file);
   } else {
     line.take_case(line.file, line.case_name);
     request.experiment = line.file;
   }
+  request.called = asked;
   for (const Override& one : line.overrides()) request.overrides.push_back(one);
   for (const auto& text : line.vary) request.design.varied.push_back(parse_varied(text));
   for (const auto& text : line.sample) request.design.sampled.push_back(parse_sampled(text));

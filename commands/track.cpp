@@ -23,6 +23,7 @@
 #include "processes/result_json.hpp"
 #include "processes/standard_output.hpp"
 #include "report/progress.hpp"
+#include "sweep/command_text.hpp"
 
 namespace mixloop {
 namespace {
@@ -71,7 +72,11 @@ Result tracked_sweep(const SuiteRun& run, const TrackLine& options, const StopSw
         "out_of_range", {run.file},
         "a sweep runs in this process, and listens to no other; expected track without --attach");
   SweepRequest request = read_sweep(run.file);
-  for (const Override& one : options.overrides()) request.overrides.push_back(one);
+  request.called = "mixloop sweep " + shell_quoted(run.file);
+  for (const Override& one : options.overrides()) {
+    request.overrides.push_back(one);
+    request.called += " --set " + shell_quoted(one.key + "=" + one.value);
+  }
   const Sweep sweep(run.name, request, options.evaluation, false);
   return result_of(
       sweep, swept(sweep, {.out = folder_of(run, options), .threads = options.jobs, .quiet = true}, stop));
