@@ -111,7 +111,10 @@ ordered_json worst_json(const KeptSweep& sweep, const Reduction& reduction) {
     ordered_json cases = ordered_json::array();
     for (const WorstRun& one : reduction.worst[m]) {
       ordered_json values = ordered_json::array();
-      for (const RunValue& value : sweep.design.values(one.run)) values.push_back(value.text);
+      const auto entries = sweep.design.values(one.run);
+      for (std::size_t i = 0; i < entries.size(); ++i)
+        values.push_back(sweep.design.variations()[i].is_number() ? finite(entries[i].number)
+                                                                  : ordered_json(entries[i].text));
       cases.push_back({{"run", one.run},
                        {"value", finite(one.value)},
                        {"end", name_of(one.end)},

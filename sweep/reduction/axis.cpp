@@ -22,11 +22,16 @@ Axis even_axis(std::span<const double> sorted, std::size_t inner) {
   Axis axis{.inner = inner};
   if (sorted.empty()) return axis;
   const auto last = static_cast<double>(sorted.size() - 1);
-  axis.from = sorted[static_cast<std::size_t>(0.001 * last)];
-  axis.to = sorted[static_cast<std::size_t>(std::ceil(0.999 * last))];
-  const double reach = 0.5 * (axis.to - axis.from);
-  if (reach == 0 || sorted.front() > axis.from - reach) axis.from = sorted.front();
-  if (reach == 0 || sorted.back() < axis.to + reach) axis.to = sorted.back();
+  const double low = sorted[static_cast<std::size_t>(0.01 * last)];
+  const double high = sorted[static_cast<std::size_t>(std::ceil(0.99 * last))];
+  const double reach = high > low ? 0.5 * (high - low) : HUGE_VAL;
+  axis.from = std::max(sorted.front(), low - reach);
+  axis.to = std::min(sorted.back(), high + reach);
+  std::size_t different = 1;
+  for (auto at = std::ranges::lower_bound(sorted, axis.from);
+       different < inner && (at = std::upper_bound(at, sorted.end(), *at)) != sorted.end() && *at <= axis.to;)
+    ++different;
+  axis.inner = std::min(inner, different);
   return axis;
 }
 

@@ -26,8 +26,8 @@ struct Axis {
   std::size_t cell_of(double value) const;
 };
 
-/// Of numbers in ascending order: from the least to the greatest, or, where a few lie far outside, so far as
-/// 998 of 1000 reach.
+/// Of numbers in ascending order: from the least to the greatest, but no farther than half as far again as the
+/// middle 98 % reach; no more cells than there are different numbers, so that those of a grain fall evenly.
 Axis even_axis(std::span<const double> sorted, std::size_t inner);
 /// Of listed numbers, in any order and some perhaps twice.
 Axis values_axis(std::vector<double> listed);

@@ -20,7 +20,7 @@ constexpr std::size_t kMostPlaced = 8;    // entries that maps have
 constexpr double kMostNumbers = 1.2e6;    // in the cells of all maps
 constexpr std::size_t kMostSide = 40, kLeastSide = 8;
 constexpr std::int64_t kFewestDraws = 64, kDrawsAClass = 16;
-constexpr std::size_t kMostClasses = 50, kClassesOfMany = 16, kMany = 100;  // entries
+constexpr std::size_t kMostClasses = 100, kClassesOfMany = 16, kMany = 100;  // entries
 constexpr std::size_t kWorst = 10;
 
 /// The runs as numbers of the variables.
@@ -212,7 +212,7 @@ void lay_out_maps(Reduction& reduction) {
   const std::size_t side = side_of(reduction);
   for (const Variable& variable : reduction.variables) {
     Axis& axis = reduction.axes.emplace_back(variable.axis);
-    if (axis.kind == Axis::Kind::even) axis.inner = side;
+    if (axis.kind == Axis::Kind::even) axis.inner = std::min(axis.inner, side);
   }
   std::vector<bool> least;
   for (const std::size_t metric : reduction.metrics)

@@ -1,6 +1,6 @@
 import uPlot from 'uplot';
 import { axis } from '../shared/axis.js';
-import { h, shown } from '../shared/dom.js';
+import { counted, h, shown } from '../shared/dom.js';
 import { cssColour, palettes, theme } from '../shared/theme.js';
 import { Cells } from './variables.js';
 
@@ -20,10 +20,10 @@ export class Histogram {
   /** Its numbers, for those who don't see it too. */
   get words() {
     const { variable: v, runs } = this;
-    const counted = `${v.measured} runs${v.measured < runs ? `, not measured in ${runs - v.measured}` : ''}`;
-    if (v.words) return counted;
+    const measured = `${counted(v.measured)} runs${v.measured < runs ? `, not measured in ${counted(runs - v.measured)}` : ''}`;
+    if (v.words) return measured;
     const quantiles = v.quantiles.map(([share, value]) => `${percent(share)} ${v.text(value, 5)}`).join(' · ');
-    return `mean ${v.withUnit(v.mean, 5)} ± ${v.text(v.deviation, 3)} · ${quantiles} · from ${v.text(v.least, 5)} (run ${v.run_of_least}) to ${v.text(v.most, 5)} (run ${v.run_of_most}) · ${counted}`;
+    return `mean ${v.withUnit(v.mean, 5)} ± ${v.text(v.deviation, 3)} · ${quantiles} · from ${v.text(v.least, 5)} (run ${v.run_of_least}) to ${v.text(v.most, 5)} (run ${v.run_of_most}) · ${measured}`;
   }
 
   /** The bars that there are: those outside only where there is a run. */
@@ -34,7 +34,9 @@ export class Histogram {
 
   data() {
     const bars = this.bars;
-    return [bars.map(({ cell }) => this.cells.place(cell).reduce((a, b) => (a + b) / 2)), bars.map(({ count }) => (this.logarithmic && count === 0 ? null : count))];
+    const isOutside = (cell) => this.cells.even && (cell === 0 || cell === this.cells.count - 1);
+    const counts = (outside) => bars.map(({ count, cell }) => (isOutside(cell) !== outside || (this.logarithmic && count === 0) ? null : count));
+    return [bars.map(({ cell }) => this.cells.place(cell).reduce((a, b) => (a + b) / 2)), counts(false), counts(true)];
   }
 
   options() {
@@ -42,25 +44,25 @@ export class Histogram {
     return {
       width: this.box.clientWidth || 500,
       height: this.height,
-      scales: { x: { time: false, range: () => cells.range }, y: this.logarithmic ? { distr: 3, range: (_, least, most) => [0.5, most * 1.5] } : { range: (_, least, most) => [0, most * 1.08] } },
+      scales: { x: { time: false, range: () => cells.range }, y: this.logarithmic ? { distr: 3, range: (_, least, most) => [0.5, most * (most / 0.5) ** 0.3] } : { range: (_, least, most) => [0, most * 1.3] } },
       axes: [axis(variable.label, { size: 34, ...cells.ticks, grid: { show: false } }), axis('Runs (number)', { size: 66 })],
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
       hooks: { draw: [(u) => this.drawMarks(u)], setCursor: [(u) => this.say(u.cursor.idx)] },
       series: [
         {},
-        {
-          fill: () => palettes[theme()][0],
-          stroke: () => palettes[theme()][0],
+        ...[0, 1].map((colour) => ({
+          fill: () => palettes[theme()][colour],
+          stroke: () => palettes[theme()][colour],
           width: 0,
           paths: uPlot.paths.bars({ size: [cells.even ? 0.96 : 0.7, 90] }),
           points: { show: false },
-        },
+        })),
       ],
     };
   }
 
-  /** The mean dashed, quantiles dotted, each with its name above. */
+  /** The mean dashed, quantiles dotted, each with its name above the bars. */
   drawMarks(u) {
     const { variable: v, cells } = this;
     if (!cells.even) return;
@@ -70,6 +72,7 @@ export class Histogram {
     ctx.save();
     ctx.font = `${11 * ratio}px system-ui, "DejaVu Sans", sans-serif`;
     ctx.textBaseline = 'top';
+    ctx.textAlign = 'left';
     const taken = [];
     for (const { value, name, colour, dash } of marks) {
       const shownValue = value * v.factor;
@@ -88,8 +91,6 @@ export class Histogram {
       let row = 0;
       while (taken.some((one) => one.row === row && left < one.right && one.left < left + width)) ++row;
       taken.push({ row, left, right: left + width });
-      ctx.fillStyle = cssColour('--panel');
-      ctx.fillRect(left - 1, bbox.top + row * 14 * ratio, width - 2 * ratio, 13 * ratio);
       ctx.fillStyle = cssColour('--ink');
       ctx.fillText(name, left, bbox.top + row * 14 * ratio);
     }
@@ -98,7 +99,7 @@ export class Histogram {
 
   say(i) {
     const bar = i === null || i === undefined ? undefined : this.bars[i];
-    this.readout.textContent = bar ? `${this.cells.words(bar.cell)}: ${bar.count} runs, ${shown((100 * bar.count) / this.variable.measured, 4)} %` : ' ';
+    this.readout.textContent = bar ? `${this.cells.words(bar.cell)}: ${counted(bar.count)} runs, ${shown((100 * bar.count) / this.variable.measured, 4)} %` : ' ';
     return this.readout.textContent;
   }
 

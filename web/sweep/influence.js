@@ -1,9 +1,16 @@
-import { h, shown } from '../shared/dom.js';
+import { counted, h, shown } from '../shared/dom.js';
 
-const percent = (share) => `${shown(100 * share, 3)} %`;
+/** Of a share that may come out below 0 by chance; to a hundredth of a percent. */
+const percent = (share, digits = 3) => {
+  if (share > 0 && share < 5e-5) return '< 0.01 %';
+  return `${shown(Math.round(1e4 * Math.max(share, 0)) / 1e2, digits)} %`;
+};
+
+/** With what it may be off by. */
+const doubted = ({ share, doubt }) => `${percent(share)}${doubt ? ` ± ${percent(doubt, 2)}` : ''}`;
 
 const missing = {
-  too_few: (runs) => `Too few to tell: it was measured in ${runs} runs. 64 draws at least are needed, and several hundred are better (--runs).`,
+  too_few: (runs) => `Too few to tell: it was measured in ${counted(runs)} runs. 64 draws at least are needed, and several hundred are better (--runs).`,
   partly_run: () => 'Not told yet: of a grid only a corner was run, in which entries don’t vary freely of one another. All runs tell.',
 };
 
@@ -15,7 +22,7 @@ function verdict(metric, rows, variables) {
   if (first.share <= first.doubt) return `No entry moves ${metric} by itself more than its doubt.`;
   if (second && first.share - second.share < Math.hypot(first.doubt, second.doubt))
     return `${name} and ${variables[second.entry].name} move ${metric} most; which of them more is within the doubt.`;
-  return `${name} moves ${metric} most: ${percent(first.share)} of its variance${first.doubt ? ` ± ${percent(first.doubt)}` : ''}.`;
+  return `${name} moves ${metric} most: ${doubted(first)} of its variance.`;
 }
 
 /** What of the variance no entry has by itself. */
@@ -23,15 +30,15 @@ function rest(rows) {
   const sum = rows.reduce((all, { share }) => all + share, 0);
   const doubt = Math.hypot(...rows.map((row) => row.doubt));
   const left = Math.max(1 - sum, 0);
-  return `All of them by themselves: ${percent(sum)}${doubt ? ` ± ${percent(doubt)}` : ''}. ${
+  return `All of them by themselves: ${doubted({ share: sum, doubt })}. ${
     left > Math.max(doubt, 0.02) ? `The other ${percent(left)} is what entries do together (interaction), which a map shows.` : 'What entries do together adds next to nothing.'
   }`;
 }
 
-function direction({ rank_correlation: rank }, runs, variable) {
+function direction({ rank_correlation: rank }, runs, variable, drawn) {
   if (variable.kind === 'words') return 'no order';
   if (rank === null) return '–';
-  if (Math.abs(rank) < 2 / Math.sqrt(Math.max(runs - 1, 1))) return `${shown(rank, 2)} (no more than chance)`;
+  if (drawn && Math.abs(rank) < 2 / Math.sqrt(Math.max(runs - 1, 1))) return `${shown(rank, 2)} (no more than chance)`;
   return `${shown(rank, 3)} ${rank > 0 ? '↗ rises with it' : '↘ falls with it'}`;
 }
 
@@ -56,8 +63,8 @@ export function influence(data) {
           h('tbody', {}, rows.map((row) => h('tr', {},
             h('th', { scope: 'row' }, variables[row.entry].name),
             h('td', { class: 'bar' }, bar(row)),
-            h('td', { class: 'number' }, `${percent(row.share)}${row.doubt ? ` ± ${percent(row.doubt)}` : ''}`),
-            h('td', {}, direction(row, one.runs, variables[row.entry]))))))),
+            h('td', { class: 'number' }, doubted(row)),
+            h('td', {}, direction(row, one.runs, variables[row.entry], Boolean(data.spread)))))))),
       h('p', {}, rows.length ? rest(rows) : ''),
     );
   };
@@ -83,7 +90,7 @@ function meaning(data) {
     h('p', {}, 'The share is the first-order Sobol’ index: how much of the variance over these runs would go if the entry alone were known. It is estimated from the runs as they are, by the correlation ratio over classes of the entry’s values ' +
       `(Plischke, 2010; Plischke, Borgonovo & Smith, 2013), here ${classes.join(' and ')} of them. What the metric varies within a class is missed: of a straight line 1/M² of its share with M classes, of what swings to and fro within a class more.`),
     h('p', {}, data.spread
-      ? '± is half of a 95 % interval, by leaving out one of 20 groups of draws after the other (the jackknife; Busing, Meijer & van der Leeden, 1999), which also takes off what few runs add. A share may come out slightly below 0 where there is none.'
+      ? '± is half of a 95 % interval, by leaving out one of 20 groups of draws after the other (the jackknife; Busing, Meijer & van der Leeden, 1999), which also takes off what few runs add.'
       : 'All combinations of a grid were run, so that the shares have no doubt of chance: they are of these values, each as likely as the others.'),
     h('p', {}, 'The rank correlation is Spearman’s, to a thousandth of the ranks: its sign says whether the metric rises or falls with the entry; near 0 with a large share it does both.'));
 }

@@ -2,7 +2,7 @@ import 'uplot/dist/uPlot.min.css';
 import '../shared/page.css';
 import '../shared/document.css';
 import './sweep.css';
-import { h } from '../shared/dom.js';
+import { counted, h } from '../shared/dom.js';
 import { onThemeChange, themeButton } from '../shared/theme.js';
 import { unpackBits } from '../shared/unpack.js';
 import { Histogram } from './distributions.js';
@@ -70,7 +70,7 @@ async function start(data) {
   data.fileOf = (run) => `${data.sweep}.run-${run}.yaml`;
   const bits = await unpackBits(data.maps.packed, data.maps.numbers);
   document.title = `${data.sweep} – mixloop report`;
-  document.getElementById('subtitle').textContent = `${data.sweep}: a sweep of ${data.runs} runs · mixloop ${data.mixloop}`;
+  document.getElementById('subtitle').textContent = `${data.sweep}: a sweep of ${counted(data.runs)} runs · mixloop ${data.mixloop}`;
   document.getElementById('contents').append(h('ul'));
   themeButton(document.getElementById('theme'));
 
@@ -80,7 +80,7 @@ async function start(data) {
   section('maps', 'Maps', map ? map.element : h('p', {}, 'There is nothing to place: fewer than two things differ between the runs.'),
     data.placed.length < data.entries.length && map ? h('p', {}, `Of ${data.entries.length} entries the ${data.placed.length} that vary and move the results most have maps.`) : null);
   section('worst', 'Worst runs', worst(data));
-  const figures = distributions(data);
+  const figures = [...distributions(data)];
   for (const histogram of figures) histogram.start();
   if (map) {
     map.start();

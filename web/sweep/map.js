@@ -1,6 +1,6 @@
 import uPlot from 'uplot';
 import { axis } from '../shared/axis.js';
-import { h, shown } from '../shared/dom.js';
+import { counted, h } from '../shared/dom.js';
 import { cssColour } from '../shared/theme.js';
 import { gradient, scaleOf, viridis } from './colours.js';
 import { copyButton } from './copy.js';
@@ -202,7 +202,7 @@ export class DensityMap {
     const m = this.kind === 'runs' ? data.metrics.indexOf(data.strongest.metric) : this.m;
     const variable = data.variables[data.metrics[m]];
     const { mean, worst, run } = variable ? cell.metric(m) : { run: kNoRun };
-    const words = [h('p', {}, h('strong', {}, where), `: ${cell.runs} runs`)];
+    const words = [h('p', {}, h('strong', {}, where), `: ${counted(cell.runs)} runs`)];
     if (run !== kNoRun)
       words.push(
         h('p', {}, variable.kind === 'held' ? variable.withUnit(mean) : `${variable.name}: mean ${variable.withUnit(mean, 4)}, ${variable.worstWord} ${variable.withUnit(worst, 4)} in run ${run} `,
@@ -217,7 +217,7 @@ export class DensityMap {
     const { scale, kind } = this;
     if (!scale) return this.bar.replaceChildren();
     const variable = kind === 'runs' ? undefined : this.data.variables[this.data.metrics[this.m]];
-    const text = (value) => (variable ? variable.withUnit(value, 4) : shown(value, 4));
+    const text = (value) => (variable ? variable.withUnit(value, 4) : counted(value));
     this.bar.replaceChildren(
       h('span', {}, `${scale.clipsBelow ? '≤ ' : ''}${text(scale.from)}`),
       h('span', { class: 'colours', style: `background: ${gradient()}` }),

@@ -20,7 +20,7 @@ export function worst(data) {
             h('th', { scope: 'row' }, String(run.run)),
             h('td', { class: 'number' }, metric.withUnit(run.value, 7)),
             h('td', {}, run.end),
-            run.entries.map((text) => h('td', { class: 'number' }, text)),
+            run.entries.map((value, i) => h('td', { class: 'number' }, typeof value === 'number' ? entries[i].withUnit(value) : value)),
             h('td', { class: 'again' }, copyButton(run.command, 'Copy its command'))))))),
       commands(data, one.cases[0]),
     );
