@@ -96,6 +96,8 @@ ordered_json influences_json(const Reduction& reduction) {
                          {"classes", one.classes},
                          {"share", finite(one.influence.share)},
                          {"doubt", finite(one.influence.doubt)},
+                         {"share_of_ranks", finite(one.on_ranks.share)},
+                         {"doubt_of_ranks", finite(one.on_ranks.doubt)},
                          {"rank_correlation", finite(one.rank_correlation)}});
     list.push_back({{"metric", metric.metric},
                     {"missing", kMissing[static_cast<std::size_t>(metric.missing)]},

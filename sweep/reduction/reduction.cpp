@@ -20,7 +20,7 @@ constexpr std::size_t kMostPlaced = 8;    // entries that maps have
 constexpr double kMostNumbers = 1.2e6;    // in the cells of all maps
 constexpr std::size_t kMostSide = 40, kLeastSide = 8;
 constexpr std::int64_t kFewestDraws = 64, kDrawsAClass = 16;
-constexpr std::size_t kMostClasses = 100, kClassesOfMany = 16, kMany = 100;  // entries
+constexpr std::size_t kMostClasses = 100, kClassesOfMany = 10, kMany = 100;  // entries
 constexpr std::size_t kWorst = 10;
 
 /// The runs as numbers of the variables.
@@ -108,9 +108,9 @@ class WorstRuns {
 };
 
 /// Histograms, influences and worst runs: one pass.
-class Second {
+class Comparison {
  public:
-  Second(const KeptSweep& sweep, Known& known)
+  Comparison(const KeptSweep& sweep, Known& known)
       : sweep_(sweep), known_(known), draws_(draws(sweep, known)), worst_(metrics().size()) {
     for (std::size_t i = 0; i < sweep.design.variations().size(); ++i)
       if (variables()[i].varies()) entries_.push_back(i);
@@ -118,11 +118,11 @@ class Second {
     const std::size_t most = entries_.size() > kMany ? kClassesOfMany : kMostClasses;
     for (const std::size_t i : entries_)
       counts.push_back(classes_.emplace_back(variables()[i], draws_, most).count);
-    influences_.emplace(counts, metrics().size(), is_drawn());
+    influences_.emplace(counts, 2 * metrics().size(), is_drawn());
     correlations_.resize(entries_.size() * metrics().size());
     class_.resize(entries_.size());
     share_.resize(entries_.size());
-    value_.resize(metrics().size());
+    value_.resize(2 * metrics().size());
   }
 
   void add(const Outcome& run) {
@@ -139,6 +139,7 @@ class Second {
       value_[m] = (value - metric.statistics.mean) / metric.statistics.deviation;
       if (metric.kind != Kind::held) worst_[m].add(run, value, metric.least_is_worst);
       const double below = known_.ranks[metrics()[m]].share_below(value);
+      value_[metrics().size() + m] = below - 0.5;
       for (std::size_t i = 0; i < entries_.size(); ++i)
         correlations_[i * metrics().size() + m].add(share_[i] - 0.5, below - 0.5);
     }
@@ -155,10 +156,10 @@ class Second {
       if (covers_a_corner) one.missing = Missing::partly_run;
       if (is_drawn() && measured * static_cast<double>(draws_) < kFewestDraws) one.missing = Missing::too_few;
       for (std::size_t i = 0; i < entries_.size() && one.missing == Missing::none; ++i)
-        one.entries.push_back({entries_[i], classes_[i].count, influences_->of(i, m),
-                               variables()[entries_[i]].words.empty()
-                                   ? correlations_[i * metrics().size() + m].value()
-                                   : kNeverMeasured});
+        one.entries.push_back(
+            {entries_[i], classes_[i].count, influences_->of(i, m), influences_->of(i, metrics().size() + m),
+             variables()[entries_[i]].words.empty() ? correlations_[i * metrics().size() + m].value()
+                                                    : kNeverMeasured});
       reduction.influences.push_back(std::move(one));
       reduction.worst.push_back(worst_[m].all());
     }
@@ -181,7 +182,8 @@ class Second {
   std::vector<Correlation> correlations_;
   std::vector<WorstRuns> worst_;
   std::vector<std::size_t> class_;
-  std::vector<double> share_, value_;  ///< of the run in hand
+  std::vector<double> share_;  ///< of the run in hand: of the entries' values, those below
+  std::vector<double> value_;  ///< the metrics, then their ranks
 };
 
 /// The entries that maps have, in their order: all, or of many those that move some metric most.
@@ -244,10 +246,10 @@ void fill_maps(Reduction& reduction, const EachRun& each_variable) {
 
 Reduction reduced(const KeptSweep& sweep, const EachRun& each) {
   Known known = known_of(sweep, each);
-  Second second(sweep, known);
-  as_variables(sweep, each, "comparing the runs")([&](const Outcome& run) { second.add(run); });
+  Comparison comparison(sweep, known);
+  as_variables(sweep, each, "comparing the runs")([&](const Outcome& run) { comparison.add(run); });
   Reduction reduction = known.reduction;
-  second.tell(reduction);
+  comparison.tell(reduction);
   reduction.placed = placed_of(reduction);
   lay_out_maps(reduction);
   fill_maps(reduction, as_variables(sweep, each, "placing the runs"));

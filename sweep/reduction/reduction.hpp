@@ -19,6 +19,7 @@ struct MetricInfluence {
     std::size_t entry = 0;  ///< a Variable
     std::size_t classes = 0;
     Influence influence;
+    Influence on_ranks;  ///< the same of the metric's ranks, in which a few runs far out count as all others
     double rank_correlation = 0;  ///< Spearman's; of words not a number: they have no order
   };
 

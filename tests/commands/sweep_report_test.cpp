@@ -86,6 +86,7 @@ TEST_F(SweepReport, RefusesAFolderWithoutRunsOneOfAnEarlierVersionAndOneBesideOt
   ASSERT_NO_FATAL_FAILURE(sweep());
   expect_refused({"report", out, folder.path().string()}, 2, "not_alone", "a page of its own");
   expect_refused({"report", experiment("paper"), out}, 2, "not_alone", "a page of its own");
+  expect_refused({"report", out, "--session", "7"}, 2, "not_a_log", "without --session");
   std::filesystem::remove(out + "/journal");
   expect_refused({"report", out}, 2, "missing_runs", "none of its 200 runs is there yet; expected some: ");
   std::filesystem::remove(out + "/asked.yaml");

@@ -127,6 +127,8 @@ TEST_F(SweepReduction, SaysWhatMovesWhat) {
   EXPECT_NEAR(error.entries[2].influence.share, 0, error.entries[2].influence.doubt + 0.01);
   EXPECT_TRUE(std::isnan(error.entries[0].rank_correlation)) << "words have no order";
   EXPECT_GT(error.entries[1].rank_correlation, 0.9);
+  EXPECT_GT(error.entries[1].on_ranks.share, 0.85);
+  EXPECT_LT(error.entries[0].on_ranks.share, 0.1);
   EXPECT_EQ(all.influences[1].missing, MetricInfluence::Missing::none);
 }
 

@@ -25,6 +25,14 @@ function verdict(metric, rows, variables) {
   return `${name} moves ${metric} most: ${doubted(first)} of its variance.`;
 }
 
+/** Where a few runs far out make the variance, the ranks tell of all the others. */
+function amongRanks(rows, variables) {
+  const byRanks = rows.map((row) => ({ ...row, share: row.share_of_ranks ?? 0, doubt: row.doubt_of_ranks ?? 0 })).sort((a, b) => b.share - a.share);
+  const [first, second] = byRanks;
+  if (!first || first.entry === rows[0].entry || first.share - (second?.share ?? 0) < first.doubt) return null;
+  return `Among the ranks, where a few runs far out count no more than the others, it is ${variables[first.entry].name}: ${doubted(first)}.`;
+}
+
 /** What of the variance no entry has by itself. */
 function rest(rows) {
   const sum = rows.reduce((all, { share }) => all + share, 0);
@@ -55,15 +63,16 @@ export function influence(data) {
     if (one.missing) return body.replaceChildren(h('p', { class: 'notes' }, missing[one.missing](one.runs)));
     const partly = one.runs < 0.99 * done ? h('p', { class: 'notes' }, `It was measured in ${percent(one.runs / done)} of the runs. Those in which it wasn’t are not chosen by chance, so that shares may be off by more than their doubt.`) : null;
     return body.replaceChildren(
-      h('p', { class: 'verdict-line' }, h('strong', {}, verdict(metric.name, rows, variables))),
+      h('p', {}, h('strong', {}, verdict(metric.name, rows, variables)), ' ', amongRanks(rows, variables) ?? ''),
       ...[partly].filter(Boolean),
       h('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': `What moves ${metric.name}` },
         h('table', { class: 'influence' },
-          h('thead', {}, h('tr', {}, ['Entry', 'Share of the variance', '', 'Rank correlation'].map((text) => h('th', { scope: 'col' }, text)))),
+          h('thead', {}, h('tr', {}, ['Entry', 'Share of the variance', '', 'Of the ranks’', 'Rank correlation'].map((text) => h('th', { scope: 'col' }, text)))),
           h('tbody', {}, rows.map((row) => h('tr', {},
             h('th', { scope: 'row' }, variables[row.entry].name),
             h('td', { class: 'bar' }, bar(row)),
             h('td', { class: 'number' }, doubted(row)),
+            h('td', { class: 'number' }, row.share_of_ranks === null ? '–' : doubted({ share: row.share_of_ranks, doubt: row.doubt_of_ranks })),
             h('td', {}, direction(row, one.runs, variables[row.entry], Boolean(data.spread)))))))),
       h('p', {}, rows.length ? rest(rows) : ''),
     );
@@ -92,5 +101,5 @@ function meaning(data) {
     h('p', {}, data.spread
       ? '± is half of a 95 % interval, by leaving out one of 20 groups of draws after the other (the jackknife; Busing, Meijer & van der Leeden, 1999), which also takes off what few runs add.'
       : 'All combinations of a grid were run, so that the shares have no doubt of chance: they are of these values, each as likely as the others.'),
-    h('p', {}, 'The rank correlation is Spearman’s, to a thousandth of the ranks: its sign says whether the metric rises or falls with the entry; near 0 with a large share it does both.'));
+    h('p', {}, 'Of the ranks’ variance: the same where each run’s metric is replaced by its rank, so that a few runs far out count no more than the others. The rank correlation is Spearman’s, to a thousandth of the ranks: its sign says whether the metric rises or falls with the entry; near 0 with a large share it does both.'));
 }

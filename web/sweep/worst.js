@@ -34,7 +34,7 @@ export function worst(data) {
 /** The worst one's commands in full. */
 function commands(data, run) {
   return h('div', {},
-    h('p', {}, `Run ${run.run} again, to the bit:`),
+    h('p', {}, `Run ${run.run} again, to the bit, from the folder where the sweep was started:`),
     h('pre', { tabindex: 0 }, run.command),
     data.called ? h('p', {}, 'or with a file of its experiment, to be looked at and changed:') : null,
     data.called ? h('pre', { tabindex: 0 }, runCommand(data, run.run).replace(' && ', '\n')) : null);
