@@ -17,17 +17,18 @@ export function gradient() {
 }
 
 /**
- * Numbers to shares: of counts by their logarithm, of others so far as the middle 96 % of the cells reach, so that a few
- * that lie far outside don't take all the colours.
+ * Numbers to shares, so far as the middle 96 % of the cells reach, so that a few that lie far outside don't take all the
+ * colours; of counts, which are all of them shown, and of numbers that go over more than a power of ten, by their logarithm.
  */
-export function scaleOf(numbers, logarithmic) {
+export function scaleOf(numbers, counts) {
   const sorted = Float64Array.from(numbers).sort();
   if (sorted.length === 0) return null;
   const last = sorted.length - 1;
   const all = [sorted[0], sorted[last]];
-  let [from, to] = logarithmic ? all : [sorted[Math.floor(0.02 * last)], sorted[Math.ceil(0.98 * last)]];
+  let [from, to] = counts ? all : [sorted[Math.floor(0.02 * last)], sorted[Math.ceil(0.98 * last)]];
   if (from === to) [from, to] = all;
+  const logarithmic = counts || (from > 0 && to > 10 * from);
   const of = logarithmic ? Math.log : (x) => x;
   const width = of(to) - of(from);
-  return { from, to, clipsBelow: all[0] < from, clipsAbove: all[1] > to, share: (x) => (width > 0 ? (of(x) - of(from)) / width : 0.5) };
+  return { from, to, logarithmic, clipsBelow: all[0] < from, clipsAbove: all[1] > to, share: (x) => (width > 0 ? (of(x) - of(from)) / width : 0.5) };
 }

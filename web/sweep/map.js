@@ -221,7 +221,7 @@ export class DensityMap {
     this.bar.replaceChildren(
       h('span', {}, `${scale.clipsBelow ? '≤ ' : ''}${text(scale.from)}`),
       h('span', { class: 'colours', style: `background: ${gradient()}` }),
-      h('span', {}, `${scale.clipsAbove ? '≥ ' : ''}${text(scale.to)}${kind === 'runs' ? ' runs, by their logarithm' : ''}`),
+      h('span', {}, `${scale.clipsAbove ? '≥ ' : ''}${text(scale.to)}${kind === 'runs' ? ' runs' : ''}${scale.logarithmic ? ', by the logarithm' : ''}`),
     );
     return undefined;
   }
