@@ -18,6 +18,7 @@ ordered_json finite(double value) { return std::isfinite(value) ? ordered_json(v
 ordered_json axis_json(const Axis& axis) {
   static constexpr const char* kKinds[] = {"even", "values", "words"};
   ordered_json json = {{"kind", kKinds[static_cast<std::size_t>(axis.kind)]},
+                       {"logarithmic", axis.logarithmic},
                        {"from", finite(axis.from)},
                        {"to", finite(axis.to)},
                        {"cells", axis.inner}};

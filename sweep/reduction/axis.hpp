@@ -17,6 +17,7 @@ struct Axis {
     words    ///< a cell a word, by its number; the last one has all further words
   };
   Kind kind = Kind::even;
+  bool logarithmic = false;  ///< of even cells: one width of the logarithm
   double from = 0, to = 1;
   std::size_t inner = 1;
   std::vector<double> values{};  ///< ascending
@@ -26,8 +27,10 @@ struct Axis {
   std::size_t cell_of(double value) const;
 };
 
-/// Of numbers in ascending order: from the least to the greatest, but no farther than half as far again as the
-/// middle 98 % reach; no more cells than there are different numbers, so that those of a grain fall evenly.
+/// Of numbers in ascending order: from the least to the greatest, but no farther than half as far again as
+/// the middle 98 % reach; numbers of a grain, such as ticks, fall evenly into cells of some grains each,
+/// `inner` at most. Of positive numbers that reach much farther above their median than below it, by their
+/// logarithm.
 Axis even_axis(std::span<const double> sorted, std::size_t inner);
 /// Of listed numbers, in any order and some perhaps twice.
 Axis values_axis(std::vector<double> listed);

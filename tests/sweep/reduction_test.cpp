@@ -190,7 +190,20 @@ TEST(Axis, ReachesHalfAsFarAgainAsTheMiddleAndHasCellsForWhatLiesOutside) {
   EXPECT_EQ(axis.cell_of(1e6), 51U);
 }
 
-TEST(Axis, OfAGrainHasACellForEachOfItsNumbers) {
+TEST(Axis, OfWhatReachesFarUpIsByTheLogarithm) {
+  std::vector<double> sorted;
+  for (int i = 0; i <= 1000; ++i) sorted.push_back(std::pow(10.0, 1e-9 * std::pow(i, 3)));  // 1 to 10
+  for (double& one : sorted) one = std::pow(one, 3);
+  const Axis axis = even_axis(sorted, 30);
+  EXPECT_TRUE(axis.logarithmic);
+  EXPECT_EQ(axis.from, 1);
+  EXPECT_EQ(axis.to, 1000);
+  EXPECT_EQ(axis.cell_of(1), 1U);
+  EXPECT_EQ(axis.cell_of(10.001), 11U);
+  EXPECT_EQ(axis.cell_of(1000), 30U);
+}
+
+TEST(Axis, OfAGrainHasCellsOfEquallyManyGrains) {
   std::vector<double> sorted;
   for (int i = 0; i < 170; ++i) sorted.push_back(0.48 + 0.001 * (i / 10));
   const Axis axis = even_axis(sorted, 60);
@@ -198,6 +211,12 @@ TEST(Axis, OfAGrainHasACellForEachOfItsNumbers) {
   std::vector<std::size_t> counts(axis.cells());
   for (const double one : sorted) ++counts[axis.cell_of(one)];
   for (std::size_t i = 1; i <= 17; ++i) EXPECT_EQ(counts[i], 10U);
+  // With room for six cells, three of them in each.
+  const Axis coarse = even_axis(sorted, 6);
+  EXPECT_EQ(coarse.inner, 6U);
+  EXPECT_EQ(coarse.cell_of(0.482), 1U);
+  EXPECT_EQ(coarse.cell_of(0.483), 2U);
+  EXPECT_EQ(coarse.cell_of(0.496), 6U);
 }
 
 TEST(Axis, OfAListHasACellAValueInAscendingOrder) {

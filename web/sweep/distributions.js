@@ -36,7 +36,7 @@ export class Histogram {
     const bars = this.bars;
     const isOutside = (cell) => this.cells.even && (cell === 0 || cell === this.cells.count - 1);
     const counts = (outside) => bars.map(({ count, cell }) => (isOutside(cell) !== outside || (this.logarithmic && count === 0) ? null : count));
-    return [bars.map(({ cell }) => this.cells.place(cell).reduce((a, b) => (a + b) / 2)), counts(false), counts(true)];
+    return [bars.map(({ cell }) => this.cells.middle(cell)), counts(false), counts(true)];
   }
 
   options() {
@@ -44,7 +44,7 @@ export class Histogram {
     return {
       width: this.box.clientWidth || 500,
       height: this.height,
-      scales: { x: { time: false, range: () => cells.range }, y: this.logarithmic ? { distr: 3, range: (_, least, most) => [0.5, most * (most / 0.5) ** 0.3] } : { range: (_, least, most) => [0, most * 1.3] } },
+      scales: { x: cells.scale, y: this.logarithmic ? { distr: 3, range: (_, least, most) => [0.5, most * (most / 0.5) ** 0.3] } : { range: (_, least, most) => [0, most * 1.3] } },
       axes: [axis(variable.label, { size: 34, ...cells.ticks, grid: { show: false } }), axis('Runs (number)', { size: 66 })],
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },

@@ -126,7 +126,7 @@ export class DensityMap {
     return {
       width: this.box.clientWidth || 600,
       height: this.height,
-      scales: { x: { time: false, range: () => x.range }, y: { range: () => y.range } },
+      scales: { x: x.scale, y: y.scale },
       axes: [axis(x.variable.label, { size: 36, ...bare, ...x.ticks }), axis(y.variable.label, { size: y.even ? 66 : 96, ...bare, ...y.ticks })],
       legend: { show: false },
       cursor: { x: false, y: false, drag: { x: false, y: false }, points: { show: false } },

@@ -49,22 +49,37 @@ export class Cells {
     this.from = axis.from * variable.factor;
     this.to = axis.to * variable.factor;
     if (this.to === this.from) this.to = this.from + (Math.abs(this.from) || 1) * 1e-6;
-    this.width = this.even ? (this.to - this.from) / axis.cells : 1;
     this.below = this.even && Boolean(occupied[0]);
     this.above = this.even && Boolean(occupied[this.count - 1]);
+  }
+
+  /** Where so many cells end, of even ones; also before the first and behind the last. */
+  edge(cells) {
+    const share = cells / this.axis.cells;
+    return this.axis.logarithmic ? this.from * (this.to / this.from) ** share : this.from + share * (this.to - this.from);
   }
 
   /** Where a cell begins and ends; those of all below and above stand apart. */
   place(cell) {
     if (!this.even) return [cell - 0.5, cell + 0.5];
-    if (cell === 0) return [this.from - 2 * this.width, this.from - this.width];
-    if (cell === this.count - 1) return [this.to + this.width, this.to + 2 * this.width];
-    return [this.from + (cell - 1) * this.width, this.from + cell * this.width];
+    const first = cell === 0 ? -2 : cell === this.count - 1 ? cell : cell - 1;
+    return [this.edge(first), this.edge(first + 1)];
+  }
+
+  /** A cell's middle. */
+  middle(cell) {
+    const [from, to] = this.place(cell);
+    return this.axis.logarithmic ? Math.sqrt(from * to) : (from + to) / 2;
   }
 
   get range() {
     if (!this.even) return [-0.5, this.count - 0.5];
-    return [this.from - (this.below ? 2.5 : 0) * this.width, this.to + (this.above ? 2.5 : 0) * this.width];
+    return [this.edge(this.below ? -2.5 : 0), this.edge(this.axis.cells + (this.above ? 2.5 : 0))];
+  }
+
+  /** uPlot's scale of it. */
+  get scale() {
+    return { time: false, distr: this.axis.logarithmic ? 3 : 1, range: () => this.range };
   }
 
   /** The cell at a place, -1 where there is none. */
@@ -98,7 +113,7 @@ export class Cells {
 
   /** What uPlot needs of an axis that is no scale of numbers. */
   get ticks() {
-    if (this.even) return {};
+    if (this.even) return this.axis.logarithmic ? { label: `${this.variable.label}, by the logarithm` } : {};
     const step = Math.ceil(this.count / 12);
     const splits = [];
     for (let cell = 0; cell < this.count; cell += step) splits.push(cell);

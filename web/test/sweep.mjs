@@ -1,5 +1,5 @@
-// Looks at the report of a sweep in a browser: node sweep.mjs CHROMIUM REPORT.html TABLE.csv. Prints how long the page takes,
-// or throws.
+// Looks at the report of a sweep in a browser: node sweep.mjs CHROMIUM REPORT.html TABLE.csv. Prints how long the page takes
+// and how smoothly it goes, or throws.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
@@ -11,6 +11,7 @@ const [header, ...lines] = readFileSync(csv, 'utf8').trim().split('\n');
 const names = header.split(',').map((name) => name.replace(/ \[.*/, ''));
 const rows = lines.map((line) => line.split(','));
 const column = (name) => rows.map((row) => Number(row[names.indexOf(name)]));
+const greatest = (numbers) => numbers.reduce((a, b) => Math.max(a, b));
 
 await opened(executable, async (browser, tab) => {
   const asked = [];
@@ -44,8 +45,8 @@ await opened(executable, async (browser, tab) => {
   assert.equal(across.runs, rows.length);
   const errors = column('max_position_error');
   const worst = across.worst.reduce((a, b) => (b.worst > a.worst ? b : a));
-  assert.equal(worst.run, errors.indexOf(Math.max(...errors)), 'the worst run of all is that of a cell');
-  assert.ok(Math.abs(worst.worst / Math.max(...errors) - 1) < 1e-4, 'to four digits');
+  assert.equal(worst.run, errors.indexOf(greatest(errors)), 'the worst run of all is that of a cell');
+  assert.ok(Math.abs(worst.worst / greatest(errors) - 1) < 1e-4, 'to four digits');
   await choose('#map-y', 'max_torque[0]');
   await choose('#map-colour', 'runs in the cell');
   assert.equal((await seen()).runs, rows.length);
@@ -78,7 +79,7 @@ await opened(executable, async (browser, tab) => {
   assert.match(await tab.textContent('#influence-shown'), /parameters\.payload moves max_position_error most: 9\d(\.\d)? % ± /);
   await choose('#worst-metric', 'largest max_torque[1]');
   const torques = column('max_torque[1]');
-  assert.equal(await tab.textContent('#worst-shown tbody th'), String(torques.indexOf(Math.max(...torques))));
+  assert.equal(await tab.textContent('#worst-shown tbody th'), String(torques.indexOf(greatest(torques))));
   await tab.click('#worst-shown tbody button');
   await tab.waitForFunction(() => /Copied|Not allowed/.test(document.getElementById('said').textContent));
 
@@ -94,7 +95,15 @@ await opened(executable, async (browser, tab) => {
       map.colour.select.selectedIndex = i % map.colour.select.length;
       map.show();
     }
-    return (performance.now() - from) / 20;
+    const another = (performance.now() - from) / 20;
+    const frame = () => new Promise(requestAnimationFrame);
+    const begun = performance.now();
+    let frames = 0;
+    for (; performance.now() - begun < 500; ++frames) {
+      map.mark({ x: 1 + (frames % 20), y: 1 + (frames % 17) }); // as the pointer goes over it
+      await frame();
+    }
+    return { another, rate: (1000 * frames) / (performance.now() - begun) };
   });
 
   // A narrow window shows all of it; light and dark text stands out.
@@ -106,5 +115,5 @@ await opened(executable, async (browser, tab) => {
     const [paper, panel, ...text] = await tab.evaluate(() => ['--paper', '--panel', '--ink', '--quiet', '--accent'].map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim()));
     for (const colour of text) for (const ground of [paper, panel]) assert.ok(contrast(colour, ground) >= 4.5, `${colorScheme}: ${colour} on ${ground}`);
   }
-  console.log(`ready after ${ready} ms, another map in ${drawn.toFixed(1)} ms`);
+  console.log(`ready after ${ready} ms, another map in ${drawn.another.toFixed(1)} ms, ${drawn.rate.toFixed(0)} frames a second while the pointer goes over it`);
 });
