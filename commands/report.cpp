@@ -65,6 +65,11 @@ bool is_of_a_sweep(const ReportLine& options) {
     throw InputError(
         "not_alone", {*sweep},
         "a sweep's folder beside other results; expected it alone: a sweep has a page of its own");
+  if (!options.experiment.empty() || options.read.session != 0)
+    throw InputError(
+        "not_a_log", {*sweep},
+        "a sweep's folder has no sessions, and says of which experiment it is; expected it without "
+        "--session and --experiment");
   return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <map>
+#include <stdexcept>
 
 #include "commands/sweep_page.hpp"
 #include "loop/output_file.hpp"
@@ -39,6 +40,16 @@ nlohmann::ordered_json expect_in(const std::filesystem::path& file, std::vector<
   return KeptJson(summary, file).value<std::vector<Entries>>("expect", {});
 }
 
+Reduction reduction_of(const KeptSweep& sweep, const KeptRuns& kept, const std::filesystem::path& folder) {
+  try {
+    return reduced(sweep, [&](const auto& told) { kept.each(told); });
+  } catch (const std::invalid_argument& error) {
+    throw InputError("wrong_size", {folder.string()},
+                     std::string("its runs are not of the columns that asked.yaml names (") + error.what() +
+                         "); expected what mixloop sweep --out keeps: the same command writes it again");
+  }
+}
+
 }  // namespace
 
 void report_sweep(const std::filesystem::path& folder, const std::string& page,
@@ -52,7 +63,7 @@ void report_sweep(const std::filesystem::path& folder, const std::string& page,
     throw InputError("missing_runs", {folder.string()},
                      "none of its " + std::to_string(sweep.design.runs()) +
                          " runs is there yet; expected some: " + going_on(sweep, folder));
-  const Reduction reduction = reduced(sweep, [&](const auto& told) { kept.each(told); });
+  const Reduction reduction = reduction_of(sweep, kept, folder);
   const std::int64_t done = reduction.ends.runs;
   std::vector<std::string> notes;
   auto expect = nlohmann::ordered_json::array();

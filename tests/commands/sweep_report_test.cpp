@@ -87,6 +87,10 @@ TEST_F(SweepReport, RefusesAFolderWithoutRunsOneOfAnEarlierVersionAndOneBesideOt
   expect_refused({"report", out, folder.path().string()}, 2, "not_alone", "a page of its own");
   expect_refused({"report", experiment("paper"), out}, 2, "not_alone", "a page of its own");
   expect_refused({"report", out, "--session", "7"}, 2, "not_a_log", "without --session");
+  std::string asked = bytes_of(out + "/asked.yaml");
+  asked.replace(asked.find("\"columns\": ["), 12, "\"columns\": [[\"more\", \"m\"],");
+  std::ofstream(out + "/asked.yaml") << asked;
+  expect_refused({"report", out}, 2, "wrong_size", "not of the columns that asked.yaml names");
   std::filesystem::remove(out + "/journal");
   expect_refused({"report", out}, 2, "missing_runs", "none of its 200 runs is there yet; expected some: ");
   std::filesystem::remove(out + "/asked.yaml");
