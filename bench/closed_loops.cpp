@@ -26,9 +26,10 @@ double seconds(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-SweepRequest paper() {
+SweepRequest paper(std::vector<Override> overrides = {}) {
   SweepRequest request;
   request.experiment = MIXLOOP_EXPERIMENTS "/paper.yaml";
+  request.overrides = std::move(overrides);
   request.design.sampled = {parse_sampled("plant.parameters.payload=uniform(4 kg, 6 kg)")};
   request.design.draws = kRuns;
   return request;
@@ -55,38 +56,78 @@ bool are_equal(const std::vector<Outcome>& a, const std::vector<Outcome>& b) {
   });
 }
 
-int run() {
-  const Sweep sweep("paper", paper(), Evaluation::machine_code, false);
-  std::vector<PreparedRun> runs;
-  for (std::int64_t k = 0; k < kRuns; ++k) runs.push_back(sweep.setup().prepared(k));
-  const LaneEngine lanes;
-  const Telling telling = sweep.telling();
-  if (!are_equal(lanes(runs, telling), run_one_by_one(runs, telling))) {
-    fmt::print(stderr, "the lanes' outcomes are not those of runs one by one\n");
-    return 1;
+/// Runs of one kind, by both ways.
+class Kind {
+ public:
+  Kind(const char* name, const SweepRequest& request)
+      : name_(name), sweep_("paper", request, Evaluation::machine_code, false) {
+    for (std::int64_t k = 0; k < kRuns; ++k) runs_.push_back(sweep_.setup().prepared(k));
   }
+
+  bool is_equal() const {
+    return are_equal(lanes_(runs_, sweep_.telling()), run_one_by_one(runs_, sweep_.telling()));
+  }
+  void go_round() {
+    alone = std::min(alone, seconds([&] { run_one_by_one(runs_, sweep_.telling()); }) / kRuns);
+    beside = std::min(beside, seconds([&] { lanes_(runs_, sweep_.telling()); }) / kRuns);
+  }
+  double preparation() const {
+    return seconds([&] {
+             for (std::int64_t k = 0; k < kRuns; ++k) sweep_.setup().prepared(k);
+           }) /
+           kRuns;
+  }
+  const char* name() const { return name_; }
+
+  double alone = HUGE_VAL, beside = HUGE_VAL;  ///< s a run, least so far
+
+ private:
+  const char* name_;
+  Sweep sweep_;
+  LaneEngine lanes_;
+  std::vector<PreparedRun> runs_;
+};
+
+int run() {
+  Kind ideal("ideal", paper());
+  Kind sensors("an encoder's noise and steps",
+               paper({{"plant.sensors",
+                       "{resolution: 1 rev / 16384, noise: 0.005 deg, velocity: differentiated, "
+                       "velocity_filter: 200 Hz}"}}));
+  Kind lag("drives that lag", paper({{"plant.actuators", "{time_constant: 0.5 ms}"}}));
+  Kind drives("drives that lag, ripple and rub",
+              paper({{"plant.actuators",
+                      "{time_constant: 0.5 ms, ripple: {amplitude: 0.03, per_turn: 12}, friction: "
+                      "{viscous: 0.01, coulomb: 0.05}}"}}));
+  const std::array kinds = {&ideal, &sensors, &lag, &drives};
+  for (const Kind* kind : kinds)
+    if (!kind->is_equal()) {
+      fmt::print(stderr, "{}: the lanes' outcomes are not those of runs one by one\n", kind->name());
+      return 1;
+    }
   const auto mujoco = mujocos_second();
-  double alone = HUGE_VAL, beside = HUGE_VAL, peer = HUGE_VAL, prepared = HUGE_VAL;
+  double peer = HUGE_VAL, prepared = HUGE_VAL;
   for (int round = 0; round < kRounds; ++round) {
-    alone = std::min(alone, seconds([&] { run_one_by_one(runs, telling); }) / kRuns);
-    beside = std::min(beside, seconds([&] { lanes(runs, telling); }) / kRuns);
-    prepared = std::min(prepared, seconds([&] {
-                                    for (std::int64_t k = 0; k < kRuns; ++k) sweep.setup().prepared(k);
-                                  }) / kRuns);
+    for (Kind* kind : kinds) kind->go_round();
+    prepared = std::min(prepared, ideal.preparation());
     if (mujoco) peer = std::min(peer, seconds(mujoco));
   }
   fmt::print(
       "{}, {} lanes\n\n| a run of one second | us | runs a second and core | times the lanes' "
       "|\n|---|---|---|---|\n",
       machine_description(), lane_width());
-  const auto line = [&](const char* name, double time) {
+  const auto line = [&](const std::string& name, double time, double beside) {
     if (time < HUGE_VAL)
       fmt::print("| {} | {:.1f} | {:.0f} | {:.2f} |\n", name, time * 1e6, 1 / time, time / beside);
   };
-  line("in lanes", beside);
-  line("one by one", alone);
-  line("its preparation, beside either", prepared);
-  line("MuJoCo's own steps (RK4), no controller", peer);
+  line("in lanes", ideal.beside, ideal.beside);
+  line("one by one", ideal.alone, ideal.beside);
+  line("its preparation, beside either", prepared, ideal.beside);
+  line("MuJoCo's own steps (RK4), no controller", peer, ideal.beside);
+  for (const Kind* kind : {&sensors, &lag, &drives}) {
+    line(fmt::format("{}, in lanes", kind->name()), kind->beside, kind->beside);
+    line(fmt::format("{}, one by one", kind->name()), kind->alone, kind->beside);
+  }
   return 0;
 }
 

@@ -51,9 +51,9 @@ set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstrea
     <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
 # GCC takes a precompiled header only where the same macros are defined: these libraries define some.
 target_link_libraries(mixloop_numbers INTERFACE Eigen3::Eigen fmt::fmt)
-target_link_libraries(mixloop_people INTERFACE Eigen3::Eigen fmt::fmt)
+target_link_libraries(mixloop_people INTERFACE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json CLI11::CLI11)
 mixloop_precompiled(numbers ${standard} <Eigen/Dense> <fmt/format.h>)
-mixloop_precompiled(people ${standard} <Eigen/Core> <fmt/format.h>)
+mixloop_precompiled(people ${standard} <Eigen/Core> <fmt/format.h> <nlohmann/json.hpp> <CLI/CLI.hpp>)
 if(MIXLOOP_TESTS)
   target_link_libraries(mixloop_tests INTERFACE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json GTest::gmock)
   mixloop_precompiled(tests ${standard} <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <gmock/gmock.h> <gtest/gtest.h>)

@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 #include "processes/called_as.hpp"
 
 namespace mixloop {
@@ -20,18 +18,6 @@ constexpr auto kTellAgain = 10s;  // where stderr is no terminal
 /// What a process is heard on.
 const char* channel_of(const std::string& process) {
   return process == "plant" ? "STATE" : process == "planner" ? "REFERENCE" : "COMMAND";
-}
-
-/// A word for a shell, in quotes where it needs them.
-std::string shell_word(const std::string& word) {
-  const auto plain = [](char c) {
-    return (std::isalnum(static_cast<unsigned char>(c)) != 0) ||
-           std::string_view("_-./:=,+@%").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 /// How ours would be started.

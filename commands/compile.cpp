@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
 #include "dynamics/assembly/load_scene.hpp"

@@ -3,6 +3,7 @@
 #include "import/import_urdf.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 
 #include "commands/commands.hpp"
 #include "loop/output_file.hpp"
+#include "loop/output_folder.hpp"
 #include "notation/utf8.hpp"
 #include "processes/command_line.hpp"
 
@@ -30,21 +32,13 @@ Written files_of(const ImportLine& options, const Imported& made) {
   return {folder / (made.name + ".scene.yaml"), folder / (made.name + ".experiment.yaml")};
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (!std::filesystem::is_directory(folder))
-    throw RunFault("cannot_write", fmt::format("the folder {} can't be made: {}", printable_name(folder),
-                                               failure ? failure.message() : "a file has its name"));
-}
-
 /// Both files, or none.
 void write(const ImportLine& options, const Imported& made, const Written& files) {
   for (const auto& file : {files.scene, files.experiment})
     if (!options.force && std::filesystem::exists(file))
       throw InputError("file_exists", {file.string()},
                        "is there already; expected another --out or --name, or --force to write over it");
-  make_folder(options.out);
+  prepare_folder(options.out);
   OutputFile scene(files.scene), experiment(files.experiment);
   scene.write(made.scene);
   experiment.write(made.experiment);
@@ -69,17 +63,11 @@ nlohmann::json as_json(const Imported& made, const Written& files) {
           {"not_carried_over", left}};
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 void print_summary(const Imported& made, const Written& files) {
   fmt::print("{}\n{}\n", printable_name(files.scene.string()), printable_name(files.experiment.string()));
-  fmt::print("  motors        {}\n", listed(made.motors));
-  if (!made.free.empty()) fmt::print("  free          {}\n", listed(made.free));
-  if (!made.following.empty()) fmt::print("  following     {}\n", listed(made.following));
+  fmt::print("  motors        {}\n", fmt::join(made.motors, ", "));
+  if (!made.free.empty()) fmt::print("  free          {}\n", fmt::join(made.free, ", "));
+  if (!made.following.empty()) fmt::print("  following     {}\n", fmt::join(made.following, ", "));
   fmt::print("  ground        the link {}\n  end effector  the link {}{}\n", printable_name(made.root),
              printable_name(made.tip),
              made.leaves.size() > 1

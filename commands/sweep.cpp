@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "sweep/sweep.hpp"
-#include "sweep/kernel/closed_loops.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -13,11 +11,13 @@
 #include "commands/swept.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
+#include "notation/words.hpp"
 #include "processes/called_as.hpp"
 #include "processes/command_line.hpp"
 #include "report/progress.hpp"
-#include "sweep/command_text.hpp"
+#include "sweep/kernel/closed_loops.hpp"
 #include "sweep/leading.hpp"
+#include "sweep/sweep.hpp"
 #include "sweep/written_run.hpp"
 
 namespace mixloop {
@@ -36,9 +36,9 @@ struct SweepLine : CommonOptions {
 
 /// The line again, without where it is kept and by whom it is run.
 std::string called(const SweepLine& line) {
-  std::string text = "mixloop sweep " + shell_quoted(line.file);
+  std::string text = "mixloop sweep " + shell_word(line.file);
   const auto add = [&](const char* option, const std::string& value) {
-    text += fmt::format(" {} {}", option, shell_quoted(value));
+    text += fmt::format(" {} {}", option, shell_word(value));
   };
   if (!line.case_name.empty()) add("--case", line.case_name);
   for (const auto& one : line.sets) add("--set", one);

@@ -10,11 +10,11 @@
 #include "commands/sweep_page.hpp"
 #include "loop/output_file.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 #include "processes/called_as.hpp"
 #include "processes/command_line.hpp"
 #include "report/kept_json.hpp"
 #include "report/page.hpp"
-#include "sweep/command_text.hpp"
 #include "sweep/folder.hpp"
 #include "sweep/journal.hpp"
 
@@ -25,7 +25,7 @@ namespace {
 constexpr std::int64_t kMostRuns = 0xffffffff;
 
 std::string going_on(const KeptSweep& sweep, const std::filesystem::path& folder) {
-  return as_called(sweep.called + " --out " + shell_quoted(folder.string()));
+  return as_called(sweep.called + " --out " + shell_word(folder.string()));
 }
 
 /// What was expected of shares of all runs, as the summary has it.

@@ -18,12 +18,12 @@
 #include "commands/swept.hpp"
 #include "notation/long_work.hpp"
 #include "notation/number_text.hpp"
+#include "notation/words.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
 #include "processes/standard_output.hpp"
 #include "report/progress.hpp"
-#include "sweep/command_text.hpp"
 
 namespace mixloop {
 namespace {
@@ -72,10 +72,10 @@ Result tracked_sweep(const SuiteRun& run, const TrackLine& options, const StopSw
         "out_of_range", {run.file},
         "a sweep runs in this process, and listens to no other; expected track without --attach");
   SweepRequest request = read_sweep(run.file);
-  request.called = "mixloop sweep " + shell_quoted(run.file);
+  request.called = "mixloop sweep " + shell_word(run.file);
   for (const Override& one : options.overrides()) {
     request.overrides.push_back(one);
-    request.called += " --set " + shell_quoted(one.key + "=" + one.value);
+    request.called += " --set " + shell_word(one.key + "=" + one.value);
   }
   const Sweep sweep(run.name, request, options.evaluation, false);
   return result_of(

@@ -13,18 +13,12 @@
 
 #include "dynamics/scene/coordinate_values.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
 constexpr std::size_t kMostNumbers = 50'000'000;  // of a table, 400 MB
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 /// A table's line, read field by field.
 class Row {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dynamics/procedure/procedure.hpp"
+#include "planner/cycloid.hpp"
 
 namespace mixloop {
 namespace {
@@ -68,17 +68,16 @@ double least_duration(const std::vector<MotorLimits>& limits, const Scene& scene
 std::vector<std::size_t> overloaded(AtPoses& at, const Scene& scene, const std::vector<MotorLimits>& limits,
                                     const Motion& motion) {
   constexpr int kSteps = 32;
-  constexpr double kTurn = 2 * std::numbers::pi;
   const std::vector<double> end = pose_at_target(scene, motion);
   std::vector<double> psi = scene.home, psid(psi.size()), psidd(psi.size());
   Eigen::VectorXd most = Eigen::VectorXd::Zero(scene.n());
   for (int k = 0; k <= kSteps; ++k) {
-    const double u = static_cast<double>(k) / kSteps, T = motion.duration;
     for (std::size_t i = 0; i < psi.size(); ++i) {
-      const double way = end[i] - scene.home[i];
-      psi[i] = scene.home[i] + way * (u - std::sin(kTurn * u) / kTurn);
-      psid[i] = way * (1 - std::cos(kTurn * u)) / T;
-      psidd[i] = way * kTurn * std::sin(kTurn * u) / (T * T);
+      const Displacement way =
+          cycloid(static_cast<double>(k) / kSteps, end[i] - scene.home[i], motion.duration);
+      psi[i] = scene.home[i] + way.s;
+      psid[i] = way.sd;
+      psidd[i] = way.sdd;
     }
     most = most.cwiseMax(at.torque(psi, psid, psidd).cwiseAbs());
   }

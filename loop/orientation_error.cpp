@@ -19,9 +19,9 @@ Eigen::Matrix3d OrientationError::rotation_at(std::span<const double> psi, doubl
 double OrientationError::at(std::span<const double> psi, std::span<const double> motors, double t) {
   std::ranges::copy(motors, desired_.begin());
   const Eigen::Matrix3d actual = rotation_at(psi, t), desired = rotation_at(desired_, t);
-  const auto& direction = model_.scene->end_effector.direction;
-  if (!direction) return rotation_vector(desired * actual.transpose()).norm();
-  const Eigen::Vector3d axis((*direction)[0], (*direction)[1], (*direction)[2]);
+  const Scene::EndEffector& end_effector = model_.scene->end_effector;
+  if (!end_effector.direction) return rotation_vector(desired * actual.transpose()).norm();
+  const Eigen::Vector3d axis = axis_of(end_effector);
   const Eigen::Vector3d here = actual * axis, there = desired * axis;
   return mixloop_functions::atan2(here.cross(there).norm(), here.dot(there));
 }

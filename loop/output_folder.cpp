@@ -19,6 +19,9 @@ constexpr std::array kRunFiles = {"result.json", "trajectory.csv", "inputs.json"
 void prepare_folder(const std::filesystem::path& folder) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
+  if (!std::filesystem::is_directory(folder))
+    throw RunFault("cannot_write", "the folder " + folder.string() + " can't be made: " +
+                                       (failure ? failure.message() : "a file has its name"));
   const auto probe = folder / ".mixloop-probe";
   const bool writable = std::ofstream(probe).put('x').good();
   std::filesystem::remove(probe, failure);

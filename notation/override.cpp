@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <span>
 
@@ -83,6 +84,26 @@ NodePtr replaced(const NodePtr& node, std::span<const PathStep> steps, const Nod
   return copy;
 }
 
+/// A number and perhaps a unit's name behind it, which is itself in YAML: a sweep sets millions of them.
+bool is_plain_number(std::string_view text) {
+  const auto is_one_of = [](char c, std::string_view of) { return of.find(c) != std::string_view::npos; };
+  constexpr std::string_view kDigits = "0123456789";
+  const std::size_t first = !text.empty() && is_one_of(text[0], "+-.") ? 1 : 0;
+  if (first == text.size() || !is_one_of(text[first], kDigits) || text.back() == ' ') return false;
+  return std::ranges::all_of(text, [&](char c) {
+    return is_one_of(c, kDigits) || is_one_of(c, "+-. ") || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  });
+}
+
+NodePtr value_of(std::string_view text, const std::string& file) {
+  if (!is_plain_number(text)) return parse_document(text, file);
+  auto node = std::make_shared<Node>();
+  node->kind = Node::Kind::scalar;
+  node->place = {file, 1, 1};
+  node->text = text;
+  return node;
+}
+
 }  // namespace
 
 std::vector<PathStep> path_steps(std::string_view path, const Place& place) {
@@ -94,7 +115,7 @@ NodePtr override_entry(const NodePtr& document, std::string_view path, std::stri
   const Place place{is_text ? "--set " + std::string(path) : "--set"};
   if (!is_text) throw InputError("not_text", place, "a path with a control character or invalid UTF-8");
   const auto steps = path_steps(path, place);
-  return replaced(document, steps, parse_document(value, place.file), place);
+  return replaced(document, steps, value_of(value, place.file), place);
 }
 
 }  // namespace mixloop

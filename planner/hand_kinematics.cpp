@@ -52,7 +52,7 @@ Vector HandKinematics::moved_at_home() {
   Matrix J(3, n_u);
   for (Eigen::Index i = 0; i < rows; ++i)
     J.row(i) = state.jacobian.row(scene.end_effector.axes[static_cast<std::size_t>(i)]).head(n_u);
-  const HandTurns turns = is_oriented ? turns_at(home_, rest_, rest_, 0) : HandTurns();
+  const HandTurns turns = is_oriented ? this->turns() : HandTurns();
   const PsiMotion home = with_free_at_home(scene, {home_, {}, {}});
   coordinates<double>(model_, span_of(home.psi), 0.0, ws_);
   Vector moved(n_u), shares = Vector::Zero(n_u);
@@ -74,13 +74,13 @@ Vector HandKinematics::moved_at_home() {
 const EndEffectorState<double>& HandKinematics::at(const Vector& psi, const Vector& psid, const Vector& psidd,
                                                    double t) {
   work_goes_on();  // of a large scene one takes long, and refusals take thousands
+  psidd_ = psidd;
   const PsiMotion all = with_free_at_home(*model_.scene, {psi, psid, psidd});
   return end_effector<double>(model_, span_of(all.psi), span_of(all.psid), span_of(all.psidd), t, ws_);
 }
 
 // (10), (18), (20), in the frame's axes, turned into the inertial ones.
-HandTurns HandKinematics::turns_at(const Vector& psi, const Vector& psid, const Vector& psidd, double t) {
-  at(psi, psid, psidd, t);
+HandTurns HandKinematics::turns() {
   const int index = model_.scene->end_effector.frame;
   const auto& frame = ws_.frames[static_cast<std::size_t>(index)];
   const auto& path = model_.path(index);
@@ -96,7 +96,7 @@ HandTurns HandKinematics::turns_at(const Vector& psi, const Vector& psid, const 
     rate += column * ws_.q_bias[path[j]];
     out.jacobian += column * ws_.C.row(path[j]).head(n_u);
   }
-  rate += out.jacobian * psidd;
+  rate += out.jacobian * psidd_;
   const Eigen::Matrix3d skew = detail::skew_of_vector<double>(spin);
   rate +=
       detail::vector_of_skew<double>(out.rotation.transpose() * frame.Tdd_bias.leftCols<3>() - skew * skew);

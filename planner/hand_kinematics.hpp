@@ -23,8 +23,12 @@ class HandKinematics {
 
   /// For given motors (n_u each), in a workspace that the next call overwrites.
   const EndEffectorState<double>& at(const Vector& psi, const Vector& psid, const Vector& psidd, double t);
-  /// The same pose, rates and accelerations, of the frame's turning.
-  HandTurns turns_at(const Vector& psi, const Vector& psid, const Vector& psidd, double t);
+  /// How its frame is turned and turns there: of the last `at`.
+  HandTurns turns();
+  HandTurns turns_at(const Vector& psi, const Vector& psid, const Vector& psidd, double t) {
+    at(psi, psid, psidd, t);
+    return turns();
+  }
 
   const Model<double>& model() const { return model_; }
   /// The motors at home, n_u, and as many zeros.
@@ -43,7 +47,7 @@ class HandKinematics {
 
   const Model<double>& model_;
   Workspace<double> ws_;
-  Vector home_, rest_, motor_scale_;
+  Vector home_, rest_, motor_scale_, psidd_;
   double scale_ = 1;
 };
 

@@ -55,7 +55,7 @@ class LeastSolution {
  public:
   LeastSolution(const Matrix& J, const Vector& scale)
       : J_(J),
-        weighted_(scale.cwiseAbs2().asDiagonal() * J.transpose()),
+        weighted_(is_square() ? Matrix() : Matrix(scale.cwiseAbs2().asDiagonal() * J.transpose())),
         square_(is_square() ? J : Matrix(J * weighted_)) {}
 
   bool is_square() const { return J_.rows() == J_.cols(); }

@@ -28,11 +28,15 @@ Eigen::Matrix3d rotation_at(const Path::Via& via, const Eigen::Matrix3d& before,
   if (end_effector.turns.size() == 3) return rotation_of(via.turns);
   if (end_effector.turns.size() == 1) return turn_about(end_effector.turns.front(), via.turns[0]) * home;
   if (!via.direction) return before;
-  const auto& axis = *end_effector.direction;
-  return shortest_turn(before * Eigen::Vector3d(axis[0], axis[1], axis[2]), *via.direction) * before;
+  return shortest_turn(before * axis_of(end_effector), *via.direction) * before;
 }
 
 }  // namespace
+
+Eigen::Vector3d axis_of(const Scene::EndEffector& end_effector) {
+  const auto& axis = *end_effector.direction;
+  return {axis[0], axis[1], axis[2]};
+}
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& roll_pitch_yaw) {
   return turn_about(2, roll_pitch_yaw[2]) * turn_about(1, roll_pitch_yaw[1]) *

@@ -6,6 +6,9 @@
 
 namespace mixloop {
 
+/// The direction of an end effector that has one, in its frame: length 1.
+Eigen::Vector3d axis_of(const Scene::EndEffector& end_effector);
+
 /// Rz(yaw) Ry(pitch) Rx(roll), as `rpy` of a scene's poses.
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& roll_pitch_yaw);
 

@@ -16,11 +16,6 @@ constexpr double kNoTurn = 1e-9;      // of a turn: rounding
 constexpr int kLookedAt = 5;          // poses about home
 constexpr double kTurnedAbout = 0.3;  // in motor scales
 
-Eigen::Vector3d axis_of(const Scene::EndEffector& end_effector) {
-  const auto& axis = *end_effector.direction;
-  return {axis[0], axis[1], axis[2]};
-}
-
 }  // namespace
 
 Prescription::Prescription(HandKinematics& hand, const std::vector<int>& held)
@@ -38,7 +33,7 @@ void Prescription::require_turns_about(int axis) {
     Vector psi = hand_.home();
     for (Eigen::Index i = 0; i < psi.size(); ++i)
       psi[i] += kTurnedAbout * hand_.motor_scale()[i] * std::sin(static_cast<double>(look * (2 * i + 3)));
-    const auto& J = hand_.turns_at(psi, hand_.rest(), hand_.rest(), 0).jacobian;
+    const auto J = hand_.turns_at(psi, hand_.rest(), hand_.rest(), 0).jacobian;
     if (!J.allFinite()) continue;  // closures end on the way there
     for (int other = 0; other < 3; ++other)
       if (other != axis && J.row(other).norm() > kNoTurn * J.norm())
@@ -92,8 +87,9 @@ Prescription::Miss Prescription::miss(const PathPoint& point, double t, const Ve
     for (std::size_t j = 0; j < active_.size(); ++j)
       out.jacobian(row, static_cast<Eigen::Index>(j)) = values[active_[j]];
   };
+  const auto& state = hand_.at(psi, hand_.rest(), hand_.rest(), t);
   if (turning_ > 0) {
-    const HandTurns turns = hand_.turns_at(psi, hand_.rest(), hand_.rest(), t);
+    const HandTurns turns = hand_.turns();
     const Matrix rows = turning_rows(point.rotation), J = rows * turns.jacobian;
     Eigen::Matrix3d turn = point.rotation * turns.rotation.transpose();
     if (end_effector_.direction) {
@@ -105,7 +101,6 @@ Prescription::Miss Prescription::miss(const PathPoint& point, double t, const Ve
     out.angle = error.norm() / hand_.scale();
     for (Eigen::Index i = 0; i < turning_; ++i) fill(rows_ - turning_ + i, J.row(i), error[i], rate[i]);
   }
-  const auto& state = hand_.at(psi, hand_.rest(), hand_.rest(), t);
   Eigen::Index row = 0;
   for (const int axis : end_effector_.axes) {
     fill(row, state.jacobian.row(axis), point.position[axis] - state.position[axis],
@@ -145,8 +140,9 @@ std::string Prescription::text_of_lost(double t, const Vector& psi, const Vector
 Vector Prescription::acceleration_to(const PathPoint& point, double t, const Vector& psi,
                                      const Vector& psid) {
   Vector out(rows_);
+  const auto& state = hand_.at(psi, psid, hand_.rest(), t);
   if (turning_ > 0) {
-    const HandTurns turns = hand_.turns_at(psi, psid, hand_.rest(), t);
+    const HandTurns turns = hand_.turns();
     Eigen::Vector3d missing = point.spin_rate - turns.spin_rate;
     if (end_effector_.direction) {
       const Eigen::Vector3d d = point.rotation * axis_of(end_effector_);
@@ -154,7 +150,6 @@ Vector Prescription::acceleration_to(const PathPoint& point, double t, const Vec
     }
     out.tail(turning_) = turning_rows(point.rotation) * missing;
   }
-  const auto& state = hand_.at(psi, psid, hand_.rest(), t);
   Eigen::Index row = 0;
   for (const int axis : end_effector_.axes) out[row++] = point.acceleration[axis] - state.acceleration[axis];
   return out;
@@ -183,8 +178,9 @@ Vector Prescription::turning_back(const PathPoint& point, double t, const Vector
     for (const double side : {1.0, -1.0}) {
       Vector rates = psid;
       rates[motor] += side * away;
-      if (turning_ > 0) slope += side * on_turn.dot(hand_.turns_at(psi, rates, hand_.rest(), t).spin_rate);
-      slope += side * on_place.dot(hand_.at(psi, rates, hand_.rest(), t).acceleration);
+      const auto& state = hand_.at(psi, rates, hand_.rest(), t);
+      if (turning_ > 0) slope += side * on_turn.dot(hand_.turns().spin_rate);
+      slope += side * on_place.dot(state.acceleration);
     }
     out[j] = slope / (4 * away);
     if (turning_ > 0) out[j] += on_columns.dot(turns.jacobian.col(motor));

@@ -49,6 +49,16 @@ class Actuators {
 
   Actuators(const ActuatorSettings& settings, std::size_t n_u);
 
+  /// A motor's; what it doesn't have is neutral.
+  struct Drive {
+    double rate, lag, ripple, per_turn, viscous, coulomb, smooth;
+    double ramp_time(const State::Drive& at) const;
+    double ramp(const State::Drive& from, double s) const;
+    double lagged(const State::Drive& from, double s) const;
+    double less_friction(double torque, double psid, double factor) const;
+  };
+  const std::vector<Drive>& drives() const { return drives_; }
+
   /// Before any command.
   State state() const { return {.drives = std::vector<State::Drive>(drives_.size())}; }
 
@@ -70,13 +80,6 @@ class Actuators {
   double next_kink(const State& state, double s) const;
 
  private:
-  struct Drive {
-    double rate, lag, ripple, per_turn, viscous, coulomb, smooth;
-    double ramp_time(const State::Drive& at) const;
-    double ramp(const State::Drive& from, double s) const;
-    double lagged(const State::Drive& from, double s) const;
-    double less_friction(double torque, double psid, double factor) const;
-  };
   std::vector<Drive> drives_;
 };
 

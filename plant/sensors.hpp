@@ -56,6 +56,15 @@ class Sensors {
 
   Sensors(const SensorSettings& settings, std::uint64_t seed, std::size_t n, double rate_hz);
 
+  /// A measured coordinate's; what it doesn't have is 0.
+  struct Channel {
+    std::size_t coordinate;
+    double resolution, noise, bias, drop;
+    std::size_t delay;
+  };
+  const std::vector<Channel>& channels() const { return channels_; }
+  double velocity_share() const { return share_; }
+
   /// Before any measurement.
   State state() const;
 
@@ -66,11 +75,6 @@ class Sensors {
                Faults::State* faults, std::span<double> psi_out, std::span<double> psid_out) const;
 
  private:
-  struct Channel {
-    std::size_t coordinate;
-    double resolution, noise, bias, drop;
-    std::size_t delay;
-  };
   /// True where it isn't delivered.
   bool read(State& state, std::size_t i, std::int64_t tick, double psi, double psid,
             Faults::State* faults) const;

@@ -15,7 +15,8 @@ constexpr std::size_t kMostPlans = 16;
 
 /// All that a plan of these scenes depends on.
 std::string ground_of_plan(const Experiment& experiment) {
-  std::string text = common_ground(experiment)[0] + common_ground(experiment)[2] + " torque";
+  const auto common = common_ground(experiment);
+  std::string text = common[0] + common[2] + " torque";
   for (const double limit : experiment.limits.torque) text += fmt::format(" {:a}", limit);
   const PlantSettings& plant = experiment.plant;
   if (plant.continuous) text += fmt::format(" stages {} {}", facts(plant.integrator).name, plant.substeps);

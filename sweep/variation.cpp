@@ -11,17 +11,12 @@
 #include "notation/nearest.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
 
 constexpr std::int64_t kMostValues = 1'000'000;
-
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return "";
-  return std::string(text.substr(begin, text.find_last_not_of(" \t") + 1 - begin));
-}
 
 /// A number and the unit behind it.
 struct Measure {
@@ -48,7 +43,7 @@ std::vector<std::string> parts_of(std::string_view text) {
     if (i < text.size() && (text[i] == '[' || text[i] == '{' || text[i] == '(')) ++depth;
     if (i < text.size() && (text[i] == ']' || text[i] == '}' || text[i] == ')')) --depth;
     if (i < text.size() && (text[i] != ',' || depth > 0)) continue;
-    parts.push_back(trimmed(text.substr(begin, i - begin)));
+    parts.emplace_back(trimmed(text.substr(begin, i - begin)));
     begin = i + 1;
   }
   return parts;
@@ -99,7 +94,7 @@ Variation range_of(const Written& written, std::size_t dots) {
   const std::size_t colon = value.rfind(':');
   if (colon == std::string::npos || colon < dots)
     written.fail("invalid_range", in_quotes(value) + " doesn't say how many values; " + kExpected);
-  const std::string many = trimmed(std::string_view(value).substr(colon + 1));
+  const std::string many(trimmed(std::string_view(value).substr(colon + 1)));
   std::int64_t count = 0;
   const auto [end, error] = std::from_chars(many.data(), many.data() + many.size(), count);
   if (error != std::errc() || end != many.data() + many.size() || many.empty())
@@ -107,8 +102,8 @@ Variation range_of(const Written& written, std::size_t dots) {
   if (count < 1 || count > kMostValues)
     written.fail("out_of_range",
                  fmt::format("{} values of '{}'; expected 1 to {}", count, written.key, kMostValues));
-  auto ends = numbers_in({trimmed(std::string_view(value).substr(0, dots)),
-                          trimmed(std::string_view(value).substr(dots + 2, colon - dots - 2))});
+  auto ends = numbers_in({std::string(trimmed(std::string_view(value).substr(0, dots))),
+                          std::string(trimmed(std::string_view(value).substr(dots + 2, colon - dots - 2)))});
   if (!ends)
     written.fail("invalid_range",
                  in_quotes(value) + " has not two numbers of one unit; " + std::string(kExpected));
@@ -148,7 +143,7 @@ Variation sampled(const Written& written) {
   static constexpr const char* kExpected = "expected normal(mean, std) or uniform(from, to)";
   const std::string& value = written.value;
   const std::size_t open = value.find('(');
-  const std::string name = trimmed(std::string_view(value).substr(0, open));
+  const std::string name(trimmed(std::string_view(value).substr(0, open)));
   if (std::ranges::find(kNames, name) == kNames.end())
     written.fail("unknown_value", in_quotes(name) + " is nothing to sample from" + suggestion(name, kNames));
   if (open == std::string::npos || !value.ends_with(')'))
@@ -174,8 +169,8 @@ Written written_in(const std::string& text, const std::string& option, const cha
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError("invalid_override", {option + " " + text}, std::string("expected ") + example);
-  Written written{trimmed(std::string_view(text).substr(0, equals)),
-                  trimmed(std::string_view(text).substr(equals + 1)),
+  Written written{std::string(trimmed(std::string_view(text).substr(0, equals))),
+                  std::string(trimmed(std::string_view(text).substr(equals + 1))),
                   {}};
   written.place = {option + " " + written.key};
   return written;
@@ -214,7 +209,7 @@ Variation parse_sampled(const std::string& text) {
 
 Variation read_varied(const Node::Entry& entry) {
   if (entry.value->kind == Node::Kind::scalar)
-    return varied({entry.key, trimmed(entry.value->text), entry.value->place});
+    return varied({entry.key, std::string(trimmed(entry.value->text)), entry.value->place});
   std::vector<std::string> texts;
   for (const auto& item : items_of(entry.value, "the values of a varied entry"))
     texts.push_back(item->kind == Node::Kind::scalar ? item->text : json_of(*item).dump());
@@ -225,8 +220,8 @@ Variation read_varied(const Node::Entry& entry) {
 }
 
 Variation read_sampled(const Node::Entry& entry) {
-  return sampled(
-      {entry.key, trimmed(mixloop::text_of(*entry.value, "what is sampled from")), entry.value->place});
+  return sampled({entry.key, std::string(trimmed(mixloop::text_of(*entry.value, "what is sampled from"))),
+                  entry.value->place});
 }
 
 }  // namespace mixloop

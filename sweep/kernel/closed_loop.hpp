@@ -5,78 +5,15 @@
 // graphics processor, so it stands alone.
 #pragma once
 
-#include <math.h>
-
-#include "notation/functions/fused.hpp"
+#include "sweep/kernel/drives.hpp"
+#include "sweep/kernel/lanes.hpp"
 #include "sweep/kernel/loop_data.hpp"
+#include "sweep/kernel/sensors.hpp"
 
 namespace mixloop_loop {
 
-#if defined(MIXLOOP_VECTORS)
-template <class Real, class Mask>
-MIXLOOP_INLINE Real chosen(const Mask& mask, const Real& yes, const Real& no) {
-  return mask ? yes : no;
-}
-#else
-template <class Real>
-MIXLOOP_INLINE Real chosen(bool mask, const Real& yes, const Real& no) {
-  return mask ? yes : no;
-}
-#endif
-
-template <class Real>
-struct Memory {
-  static constexpr int kLanes = sizeof(Real) / sizeof(double);
-  /// Lanes past the last run repeat it.
-  MIXLOOP_INLINE static Real load(const double* from, long long i, int runs, int first) {
-    Real x = Real();
-    for (int lane = 0; lane < kLanes; ++lane) put(x, lane, from[i * runs + at(first, lane, runs)]);
-    return x;
-  }
-  MIXLOOP_INLINE static void store(double* to, long long i, int runs, int first, const Real& x) {
-    for (int lane = 0; lane < kLanes && first + lane < runs; ++lane)
-      to[i * runs + first + lane] = get(x, lane);
-  }
-  MIXLOOP_INLINE static int at(int first, int lane, int runs) {
-    return first + lane < runs ? first + lane : runs - 1;
-  }
-#if defined(MIXLOOP_VECTORS)
-  MIXLOOP_INLINE static double get(const Real& x, int lane) {
-    if constexpr (kLanes == 1)
-      return (void)lane, x;
-    else
-      return x[lane];
-  }
-  MIXLOOP_INLINE static void put(Real& x, int lane, double value) {
-    if constexpr (kLanes == 1)
-      (void)lane, x = value;
-    else
-      x[lane] = value;
-  }
-#else
-  MIXLOOP_INLINE static double get(const Real& x, int) { return x; }
-  MIXLOOP_INLINE static void put(Real& x, int, double value) { x = value; }
-#endif
-};
-
-template <class Real>
-MIXLOOP_INLINE Real magnitude(const Real& x) {
-  return chosen<Real>(x < 0.0, (Real)-x, (Real)(x + 0.0));  // 0 of -0
-}
-
-template <class Real>
-MIXLOOP_INLINE Real within(const Real& x, const Real& limit) {
-  const Real most = -limit;
-  return chosen<Real>(x < most, most, chosen<Real>(limit < x, limit, x));
-}
-
-/// What is not a number is below nothing.
-template <class Real>
-MIXLOOP_INLINE void raise(Real& most, const Real& value) {
-  most = chosen<Real>(value <= most, most, value);
-}
-
-/// Programs has n, n_u, the sizes of constants, and the scene's evaluations: plant, mass, bias, hand.
+/// Programs has n, n_u, the sizes of constants, the scene's evaluations (plant, mass, bias, hand), and
+/// whether there are sensors and drives that aren't ideal.
 template <class Real, class Programs>
 class Loop {
   static constexpr int n = Programs::n, n_u = Programs::n_u, size = 2 * n + 1;
@@ -97,6 +34,8 @@ class Loop {
     for (int i = 0; i < Programs::hand_constants; ++i) hand_k_[i] = load(each.hand_constants, i);
     for (int i = 0; i < size; ++i) x_[i] = mixloop_functions::lift<Real>(0.0);
     for (int i = 0; i < n; ++i) x_[i] = load(each.psi0, i);
+    if constexpr (Programs::sensors) sensors_.load(each, common, first);
+    if constexpr (Programs::drives) drives_.load(each, common, first);
     rest_ = load(each.delay_rest, 0);
     error_limit_ = load(each.error_limit, 0);
     alive_ = mixloop_functions::lift<Real>(1.0);
@@ -131,11 +70,7 @@ class Loop {
   }
   MIXLOOP_INLINE static Real not_a_number() { return mixloop_functions::lift<Real>((double)NAN); }
   MIXLOOP_INLINE static Real number(double x) { return mixloop_functions::lift<Real>(x); }
-  MIXLOOP_INLINE bool any_alive() const {
-    for (int lane = 0; lane < Memory<Real>::kLanes; ++lane)
-      if (Memory<Real>::get(alive_, lane) > 0) return true;
-    return false;
-  }
+  MIXLOOP_INLINE bool any_alive() const { return any_above(alive_, 0); }
   MIXLOOP_INLINE Real reference(long long k, int i) const { return number(common_.references[k * row + i]); }
 
   // What diverged stands still, so that it holds up nobody.
@@ -167,7 +102,10 @@ class Loop {
   // (33) and its kin.
   MIXLOOP_FUNCTION void command(long long k) {
     Real tau[n_u], psi[n], psid[n], psidd[n_u];
-    for (int i = 0; i < n; ++i) psi[i] = x_[i], psid[i] = x_[n + i];
+    if constexpr (Programs::sensors)
+      sensors_.measure(k, told_, x_, psi, psid);
+    else
+      for (int i = 0; i < n; ++i) psi[i] = x_[i], psid[i] = x_[n + i];
     for (int i = 0; i < n_u; ++i) {
       psidd[i] = reference(k, 2 * n_u + i);
       const Real off = reference(k, i) - psi[i], late = reference(k, n_u + i) - psid[i];
@@ -239,28 +177,53 @@ class Loop {
       }
       applied_[i] = within(tau, torque_limit_[i]);
     }
+    if constexpr (Programs::drives) drives_.take(applied_, due, k == 0 && !due);
   }
 
   MIXLOOP_FUNCTION void advance(long long k) {
     take(k, false);
-    if (any_rest()) {
-      Real before[size];
-      for (int i = 0; i < size; ++i) before[i] = x_[i];
+    if (any_above(rest_, 0)) {
       move_on(time(k), rest_);
-      for (int i = 0; i < size; ++i) x_[i] = chosen<Real>(rest_ > 0.0, x_[i], before[i]);
       take(k, true);
     }
-    move_on(time(k) + rest_, common_.tick_length - rest_);
+    move_on(time(k) + rest_, common_.tick_length - rest_, true);
   }
 
-  MIXLOOP_INLINE bool any_rest() const {
-    for (int lane = 0; lane < Memory<Real>::kLanes; ++lane)
-      if (Memory<Real>::get(rest_, lane) > 0) return true;
-    return false;
+  /// Where `length` is none, nothing moves; `everywhere`: there is some. With drives pieces end where a
+  /// torque has a kink.
+  MIXLOOP_FUNCTION void move_on(const Real& t, const Real& length, bool everywhere = false) {
+    if constexpr (!Programs::drives) {
+      if (everywhere)
+        integrate(number(0.0), t, length);
+      else
+        integrate_where(number(0.0), length, t, length);
+    } else {
+      (void)everywhere;
+      Real done = number(0.0);
+      while (any_above(length - done, 0)) {
+        Real end = drives_.next_kink(done);
+        end = chosen<Real>(end < length * (1.0 - 1e-9), end, length);
+        integrate_where(done, length, t + done, end - done);
+        done = chosen<Real>(done < length, end, done);
+      }
+      drives_.pass(length);
+    }
+  }
+  MIXLOOP_FUNCTION void integrate_where(const Real& done, const Real& whole, const Real& t,
+                                        const Real& length) {
+    Real before[size];
+    for (int i = 0; i < size; ++i) before[i] = x_[i];
+    integrate(done, t, length);
+    for (int i = 0; i < size; ++i) x_[i] = chosen<Real>(done < whole, x_[i], before[i]);
   }
 
-  MIXLOOP_FUNCTION void rate_of(const Real& t, const Real* x, Real* dx) {
+  /// `s` after the drives were asked; `stage` of the method, from 0.
+  MIXLOOP_FUNCTION void rate_of(int stage, const Real& s, const Real& t, const Real* x, Real* dx) {
     for (int i = 0; i < n; ++i) dx[i] = x[n + i];
+    if constexpr (Programs::drives)
+      drives_.torque(stage, s, x, x + n, applied_);
+    else
+      (void)stage, (void)s;
     Programs::plant(x, x + n, (const Real*)applied_, t, (const Real*)plant_k_, dx + n);
     Real power = applied_[0] * x[n];
     for (int i = 1; i < n_u; ++i) power = power + applied_[i] * x[n + i];
@@ -268,17 +231,18 @@ class Loop {
   }
 
   // Hairer, Norsett & Wanner, Solving ODEs I, II.1, table 1.2.
-  MIXLOOP_FUNCTION void move_on(const Real& t, const Real& length) {
+  MIXLOOP_FUNCTION void integrate(const Real& done, const Real& t, const Real& length) {
     const Real h = length / (double)common_.substeps, half = h / 2.0, sixth = h / 6.0;
     Real k1[size], k2[size], k3[size], k4[size], x[size];
     for (int step = 0; step < common_.substeps; ++step) {
-      rate_of(t + (step + 0.0) * h, x_, k1);
+      const Real begin = (step + 0.0) * h, middle = (step + 0.5) * h, end = (step + 1.0) * h;
+      rate_of(0, done + begin, t + begin, x_, k1);
       for (int i = 0; i < size; ++i) x[i] = x_[i] + half * k1[i];
-      rate_of(t + (step + 0.5) * h, x, k2);
+      rate_of(1, done + middle, t + middle, x, k2);
       for (int i = 0; i < size; ++i) x[i] = x_[i] + half * k2[i];
-      rate_of(t + (step + 0.5) * h, x, k3);
+      rate_of(1, done + middle, t + middle, x, k3);
       for (int i = 0; i < size; ++i) x[i] = x_[i] + h * k3[i];
-      rate_of(t + (step + 1.0) * h, x, k4);
+      rate_of(2, done + end, t + end, x, k4);
       for (int i = 0; i < size; ++i) x_[i] = x_[i] + sixth * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
     }
   }
@@ -287,6 +251,8 @@ class Loop {
   const Each& each_;
   const Told& told_;
   int first_;
+  Sensors<Real, n> sensors_;
+  Drives<Real, n_u> drives_;
   Real x_[size], applied_[n_u], kp_[n_u], kv_[n_u], torque_limit_[n_u], most_torque_[n_u];
   Real plant_k_[Programs::plant_constants + 1], mass_k_[Programs::mass_constants + 1];
   Real bias_k_[Programs::bias_constants + 1], hand_k_[Programs::hand_constants + 1];

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -62,7 +62,12 @@ bool takes_bias(Law law) { return law == Law::pd_gravity || law == Law::computed
 
 KernelParts parts_of(const Experiment& experiment) {
   const Law law = experiment.controller.law;
-  return {experiment.scene, experiment.controller_scene, takes_mass(law), takes_bias(law)};
+  return {.plant = experiment.scene,
+          .controller = experiment.controller_scene,
+          .feedforward = takes_mass(law),
+          .bias = takes_bias(law),
+          .sensors = experiment.plant.sensors.any(),
+          .drives = experiment.plant.actuators.any()};
 }
 
 /// Numbers of runs side by side: number i of run r at [i * runs + r].
@@ -93,10 +98,14 @@ class Group {
     for (auto* rows : {&psi0_, &kp_, &kv_, &torque_limit_, &most_torque_})
       *rows = Rows(static_cast<std::size_t>(n_), count);
     for (std::size_t p = 0; p < 4; ++p) constants_[p] = Rows(kernel.constants(p), count);
+    drives_ = Rows(static_cast<std::size_t>(mixloop_loop::kDriveNumbers * n_), count);
+    sensors_ = Rows(static_cast<std::size_t>(mixloop_loop::kSensorNumbers * n_), count);
+    sensor_delay_ = Rows(static_cast<std::size_t>(n_), count);
     std::size_t longest = 0;
     for (std::size_t r = 0; r < count; ++r) longest = std::max(longest, take(r, kernel));
     ring_ticks_ = static_cast<int>(longest) + 2;
     ring_ = Rows(static_cast<std::size_t>(ring_ticks_ * n_), count);
+    sensor_ring_ = Rows(static_cast<std::size_t>(sensor_ticks_ * 2 * n_), count);
     if (telling.hashes) trajectory_ = Rows(static_cast<std::size_t>((plan_.ticks() + 1) * 3 * n_), count);
     kernel.run(common(), each(), told());
   }
@@ -105,6 +114,7 @@ class Group {
 
  private:
   std::size_t take(std::size_t run, const ClosedLoopKernel& kernel);
+  void take_hardware(std::size_t run);
   Common common() const;
   Each each();
   Told told();
@@ -112,12 +122,14 @@ class Group {
   std::span<const PreparedRun* const> runs_;
   const Telling& telling_;
   const Plan& plan_;
-  int n_, ring_ticks_ = 0;
+  int n_, ring_ticks_ = 0, sensor_ticks_ = 1;
   const std::vector<double>& references_;
   Rows psi0_{0, 0}, kp_{0, 0}, kv_{0, 0}, torque_limit_{0, 0}, most_torque_{0, 0};
   Rows error_limit_{1, runs_.size()}, delay_ticks_{1, runs_.size()}, delay_rest_{1, runs_.size()};
   std::array<Rows, 4> constants_{Rows{0, 0}, Rows{0, 0}, Rows{0, 0}, Rows{0, 0}};
-  Rows told_{7, runs_.size()}, ring_{0, 0}, trajectory_{0, 0};
+  Rows drives_{0, 0}, sensors_{0, 0}, sensor_delay_{0, 0}, velocity_share_{1, runs_.size()};
+  std::vector<unsigned long long> seeds_ = std::vector<unsigned long long>(runs_.size());
+  Rows told_{7, runs_.size()}, ring_{0, 0}, sensor_ring_{0, 0}, trajectory_{0, 0};
 };
 
 /// A plan's references, tick by tick.
@@ -152,7 +164,34 @@ std::size_t Group::take(std::size_t run, const ClosedLoopKernel& kernel) {
     kernel.set_up(p, of_plant ? experiment.plant_parameters : experiment.controller_parameters, k.data());
     constants_[p].put(run, k);
   }
+  if (Hardware::needed(experiment.plant)) take_hardware(run);
   return model.delay_ticks;
+}
+
+void Group::take_hardware(std::size_t run) {
+  const Experiment& experiment = runs_[run]->experiment;
+  const Hardware hardware(experiment.plant, *experiment.scene, experiment.rate_hz);
+  const auto n = static_cast<std::size_t>(n_);
+  if (const auto& actuators = hardware.actuators)
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& drive = actuators->drives()[i];
+      std::size_t what = 0;
+      for (const double number :
+           {drive.rate, drive.lag, drive.ripple, drive.per_turn, drive.viscous, drive.coulomb, drive.smooth})
+        drives_.at(what++ * n + i, run) = number;
+    }
+  if (const auto& sensors = hardware.sensors) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& channel = sensors->channels()[i];
+      std::size_t what = 0;
+      for (const double number : {channel.resolution, channel.noise, channel.bias})
+        sensors_.at(what++ * n + i, run) = number;
+      sensor_delay_.at(i, run) = static_cast<double>(channel.delay);
+      sensor_ticks_ = std::max(sensor_ticks_, static_cast<int>(channel.delay) + 1);
+    }
+    velocity_share_.at(0, run) = sensors->velocity_share();
+    seeds_[run] = experiment.plant.seed;
+  }
 }
 
 Common Group::common() const {
@@ -168,6 +207,7 @@ Common Group::common() const {
                 .at_desired = experiment.controller.feedforward_at == FeedforwardAt::desired,
                 .at_rest = law == Law::pd_gravity,
                 .axes = {},
+                .differentiated = experiment.plant.sensors.differentiated,
                 .runs = static_cast<int>(runs_.size()),
                 .settled_within = telling_.settled_within.value_or(-1),
                 .references = references_.data()};
@@ -186,7 +226,12 @@ Each Group::each() {
           .plant_constants = constants_[0].data(),
           .mass_constants = constants_[1].data(),
           .bias_constants = constants_[2].data(),
-          .hand_constants = constants_[3].data()};
+          .hand_constants = constants_[3].data(),
+          .drives = drives_.data(),
+          .sensors = sensors_.data(),
+          .sensor_delay = sensor_delay_.data(),
+          .velocity_share = velocity_share_.data(),
+          .seeds = seeds_.data()};
 }
 
 Told Group::told() {
@@ -202,7 +247,9 @@ Told Group::told() {
           .most_torque = most_torque_.data(),
           .trajectory = telling_.hashes ? trajectory_.data() : nullptr,
           .ring = ring_.data(),
-          .ring_ticks = ring_ticks_};
+          .ring_ticks = ring_ticks_,
+          .sensor_ring = sensor_ring_.data(),
+          .sensor_ticks = sensor_ticks_};
 }
 
 Measures Group::measures(std::size_t run) {
@@ -235,9 +282,9 @@ Measures Group::measures(std::size_t run) {
 /// Whether two runs may lie side by side.
 bool are_alike(const PreparedRun& a, const PreparedRun& b) {
   const Experiment &x = a.experiment, &y = b.experiment;
-  return a.plan == b.plan && x.scene == y.scene && x.controller_scene == y.controller_scene &&
-         x.controller.law == y.controller.law && x.controller.feedforward_at == y.controller.feedforward_at &&
-         x.plant.substeps == y.plant.substeps && x.rate_hz == y.rate_hz;
+  return a.plan == b.plan && parts_of(x) == parts_of(y) && x.controller.law == y.controller.law &&
+         x.controller.feedforward_at == y.controller.feedforward_at && x.plant.substeps == y.plant.substeps &&
+         x.rate_hz == y.rate_hz && x.plant.sensors.differentiated == y.plant.sensors.differentiated;
 }
 
 }  // namespace
@@ -252,7 +299,8 @@ std::string hindrance_in_lanes(const PreparedRun& run) {
   if (!has_gains(experiment.controller.law)) return "its law has no kp and kv";
   if (plant.continuous) return "its control is continuous";
   if (plant.integrator != Method::rk4 || plant.local_error > 0) return "its integrator is not rk4";
-  if (Hardware::needed(plant)) return "its drives or sensors are not ideal, or something fails";
+  if (plant.faults.any()) return "something fails, or may";
+  if (!plant.sensors.drop.empty()) return "its sensors drop readings";
   if (scene.is_closed() || experiment.controller_scene->is_closed() || plant.partitions)
     return "chains close";
   if (scene.n() != scene.n_u() || experiment.controller_scene->n() != scene.n())
@@ -281,21 +329,20 @@ struct LaneEngine::Shelf {
   };
 
   std::mutex mutex;
-  std::map<std::string, Compiled> kernels;
+  std::list<std::pair<KernelParts, Compiled>> kernels;
   std::vector<Planned> planned;
 
   const ClosedLoopKernel* kernel_of(const KernelParts& parts) {
     const std::lock_guard lock(mutex);
-    auto [at, is_new] = kernels.try_emplace(parts.key());
-    Compiled& compiled = at->second;
-    if (is_new) {
-      std::string complaint;
-      compiled.library = SharedObject::cached(
-          at->first, [&] { return kernel_source(parts, KernelTarget::processor); }, complaint);
-      if (compiled.library)
-        compiled.kernel.emplace([&](const std::string& name) { return compiled.library.symbol(name); },
-                                lane_width());
-    }
+    for (const auto& [known, compiled] : kernels)
+      if (known == parts) return compiled.kernel ? &*compiled.kernel : nullptr;
+    Compiled& compiled = kernels.emplace_back(parts, Compiled()).second;
+    std::string complaint;
+    compiled.library = SharedObject::cached(
+        parts.key(), [&] { return kernel_source(parts, KernelTarget::processor); }, complaint);
+    if (compiled.library)
+      compiled.kernel.emplace([&](const std::string& name) { return compiled.library.symbol(name); },
+                              lane_width());
     return compiled.kernel ? &*compiled.kernel : nullptr;
   }
   std::shared_ptr<const std::vector<double>> references_of(const std::shared_ptr<const Plan>& plan) {

@@ -10,9 +10,9 @@
 
 namespace mixloop {
 
-/// Whether a run's closed loop is one that the kernel has: an ideal plant by rk4, its command held, a law
-/// with gains, a path of the end effector and nothing watched beside it. Else why not, in words; empty where
-/// it is.
+/// Whether a run's closed loop is one that the kernel has: a plant by rk4 without faults, its command held, a
+/// law with gains, a path of the end effector and nothing watched beside it. Else why not, in words; empty
+/// where it is.
 std::string hindrance_in_lanes(const PreparedRun& run);
 
 /// Goes through runs of one kind, one after the other, by a library that was built from kernel_source.

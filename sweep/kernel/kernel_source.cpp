@@ -84,8 +84,8 @@ extern "C" void closed_loops_1(const mixloop_loop::Common* common, const mixloop
 }  // namespace
 
 std::string KernelParts::key() const {
-  return fmt::format("closed loop {} {} {}\n{}\n{}", sha256_hex(kClosedLoopText), feedforward, bias,
-                     plant->canonical, controller->canonical);
+  return fmt::format("closed loop {} {} {} {} {}\n{}\n{}", sha256_hex(kClosedLoopText), feedforward, bias,
+                     sensors, drives, plant->canonical, controller->canonical);
 }
 
 std::string kernel_source(const KernelParts& parts, KernelTarget target) {
@@ -105,9 +105,10 @@ std::string kernel_source(const KernelParts& parts, KernelTarget target) {
     members += member(part);
   }
   text += kClosedLoopText;
-  text +=
-      fmt::format("\nnamespace {{\nstruct Programs {{\n  static constexpr int n = {}, n_u = {};\n{}}};\n}}\n",
-                  parts.plant->n(), parts.plant->n_u(), members);
+  text += fmt::format(
+      "\nnamespace {{\nstruct Programs {{\n  static constexpr int n = {}, n_u = {};\n"
+      "  static constexpr bool sensors = {}, drives = {};\n{}}};\n}}\n",
+      parts.plant->n(), parts.plant->n_u(), parts.sensors, parts.drives, members);
   return text + (target == KernelTarget::processor ? kOnLanes : kOnCuda);
 }
 

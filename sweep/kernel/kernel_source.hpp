@@ -13,9 +13,12 @@ struct KernelParts {
   std::shared_ptr<const Scene> plant, controller;  ///< the controller's idea of the mechanism
   bool feedforward = false;                        ///< its law takes M psidd_d
   bool bias = false;                               ///< and h
+  bool sensors = false, drives = false;            ///< there are some that aren't ideal
 
   /// Equal where the source is.
   std::string key() const;
+  /// Of the same scenes at work, which is found at once.
+  bool operator==(const KernelParts&) const = default;
 };
 
 enum class KernelTarget : std::uint8_t {

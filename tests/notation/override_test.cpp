@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "notation/document.hpp"
 #include "tests/support/bad_input.hpp"
 
@@ -41,6 +43,30 @@ TEST(Override, ReplacesAnEntryByItsPath) {
 TEST(Override, TakesAnyYamlAsValue) {
   EXPECT_EQ(overridden("{a: 1}", "a", "[0, 0.4, 0.3]"), "{a: [0, 0.4, 0.3]}");
   EXPECT_EQ(overridden("{a: 1}", "a", "{b: 2}"), "{a: {b: 2}}");
+}
+
+TEST(Override, ReadsValuesAsYamlDoes) {
+  for (const char* text : {"5",       "-0.25",  "+1e-3",  ".5",      "4.9300000000000006 kg",
+                           "1 N m s", "7  deg", "12 - 3", "0x10",    "-",
+                           "- 1",     "1 ",     " 1",     "1: 2",    "1 # two",
+                           "'1'",     "---",    "...",    "1...",    "",
+                           "~",       "null",   "-.inf",  "3 m/s^2", "1, 2"}) {
+    SCOPED_TRACE(text);
+    std::optional<InputError> refused;
+    try {
+      const NodePtr read = parse_document(text, "--set a");
+      const NodePtr set = override_entry(parse_document("{a: 1}", "f"), "a", text)->entries.at(0).value;
+      EXPECT_EQ(set->kind, read->kind);
+      EXPECT_EQ(flow(*set), flow(*read));
+      EXPECT_EQ(to_string(set->place), to_string(read->place));
+      EXPECT_EQ(set->pieces.size(), read->pieces.size());
+    } catch (const InputError& error) {
+      refused = error;
+    }
+    if (!refused) continue;
+    const auto again = input_error([&] { override_entry(parse_document("{a: 1}", "f"), "a", text); });
+    EXPECT_EQ(again->code, refused->code);
+  }
 }
 
 TEST(Override, MakesWhatIsAbsent) {

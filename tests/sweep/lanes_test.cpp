@@ -68,6 +68,75 @@ TEST(Lanes, HaveDelaysOfTheirOwn) {
   expect_equal(request, 6);
 }
 
+/// Drives and sensors that aren't ideal, and what of them each run has of its own.
+struct NotIdeal {
+  const char* name;
+  const char* entry;
+  const char* value;
+  std::vector<const char*> varied;
+};
+
+class EveryHardware : public testing::TestWithParam<NotIdeal> {};
+
+TEST_P(EveryHardware, HasTheBitsOfRunsOneByOne) {
+  SweepRequest request = short_paper("pd_feedforward");
+  request.overrides.push_back({GetParam().entry, GetParam().value});
+  request.overrides.push_back({"plant.torque_limit", "[20, 20, 20]"});
+  for (const char* varied : GetParam().varied) request.design.varied.push_back(parse_varied(varied));
+  ASSERT_EQ(hindrance_in_lanes(prepared(request)), "");
+  const auto outcomes = expect_equal(request, 9);
+  EXPECT_NE(outcomes[0].sha256, outcomes[1].sha256);
+  EXPECT_NE(outcomes[0].sha256, outcomes[3].sha256);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Lanes, EveryHardware,
+    testing::Values(
+        NotIdeal{
+            "Lag",
+            "plant.actuators",
+            "{time_constant: [0.5 ms, 0 s, 2 ms]}",
+            {"plant.actuators.time_constant[1]=0 s,0.3 ms,1 ms", "plant.command_delay=0 us,300 us,1.4 ms"}},
+        NotIdeal{"RateLimit",
+                 "plant.actuators",
+                 "{rate_limit: [500, 200 N m/s, 20]}",
+                 {"plant.actuators.rate_limit[0]=30,100,1000", "plant.command_delay=300 us,0 us,1.4 ms"}},
+        NotIdeal{"RateLimitAndLag",
+                 "plant.actuators",
+                 "{rate_limit: [50, 20, 20], time_constant: [0.5 ms, 0 s, 1 ms]}",
+                 {"plant.actuators.rate_limit[1]=10,100,1000",
+                  "plant.actuators.time_constant[0]=0 s,0.3 ms,1 ms"}},
+        NotIdeal{
+            "RippleAndFriction",
+            "plant.actuators",
+            "{ripple: {amplitude: [0.03, 0, 0.05], per_turn: [12, 12, 7]}, friction: {viscous: [0.01, 0, "
+            "0.02], coulomb: [0.05, 0.1, 0]}}",
+            {"plant.actuators.ripple.amplitude[1]=0,0.02,0.1",
+             "plant.actuators.friction.coulomb[2]=0,0.01,0.02"}},
+        NotIdeal{"Noise",
+                 "plant.sensors",
+                 "{resolution: 1 rev / 16384, noise: [0.005 deg, 0 deg, 0.01 deg], bias: [0.1 deg, 0 deg, "
+                 "-0.05 deg]}",
+                 {"seed=1,2,3", "plant.sensors.noise[1]=0 deg,0.01 deg,0.002 deg"}},
+        NotIdeal{
+            "Differences",
+            "plant.sensors",
+            "{resolution: 1 rev / 65536, velocity: differentiated, velocity_filter: 200 Hz}",
+            {"plant.sensors.velocity_filter=50 Hz,100 Hz,200 Hz", "plant.command_delay=0 us,300 us,1 ms"}},
+        NotIdeal{"Delay",
+                 "plant.sensors",
+                 "{delay: [1 ms, 0 ms, 2 ms], noise: 0.001 deg}",
+                 {"plant.sensors.delay[0]=0 ms,1 ms,3 ms", "plant.sensors.delay[1]=0 ms,1 ms,2 ms"}}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(Lanes, HaveSensorsBesideDrives) {
+  SweepRequest request = short_paper("computed_torque");
+  request.overrides.push_back(
+      {"plant.sensors", "{resolution: 1 rev / 16384, noise: 0.005 deg, velocity: differentiated}"});
+  request.overrides.push_back({"plant.actuators", "{time_constant: 0.2 ms, friction: {viscous: 0.01}}"});
+  request.design.varied = {parse_varied("seed=1,2,3"), parse_varied("plant.substeps=1,2")};
+  expect_equal(request, 6);
+}
+
 TEST(Lanes, HaveStepsLimitsAndReferencesOfTheirOwnKind) {
   SweepRequest request = short_paper("computed_torque");
   request.overrides.push_back({"controller.feedforward_at", "desired"});
@@ -103,7 +172,8 @@ TEST(Lanes, SayWhatTheyDontHave) {
     return hindrance_in_lanes(prepared(request));
   };
   EXPECT_THAT(why("plant.integrator", "gauss8"), HasSubstr("rk4"));
-  EXPECT_THAT(why("plant.sensors", "{noise: 0.01 deg}"), HasSubstr("drives or sensors"));
+  EXPECT_THAT(why("plant.sensors", "{drop: 0.01}"), HasSubstr("drop readings"));
+  EXPECT_THAT(why("faults", "[{kind: stuck, motor: 1, at: 0.05 s}]"), HasSubstr("fails"));
   EXPECT_THAT(why("plant.control", "continuous"), HasSubstr("continuous"));
   EXPECT_THAT(why("controller.safety", "{torque_limit: [20, 20, 20]}"), HasSubstr("limits"));
 }
