@@ -80,8 +80,7 @@ Axis even_axis(std::span<const double> sorted, std::size_t inner) {
 
 Axis values_axis(std::vector<double> listed) {
   std::ranges::sort(listed);
-  const auto again = std::ranges::unique(listed);
-  listed.erase(again.begin(), again.end());
+  listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
   Axis axis{.kind = Axis::Kind::values, .from = listed.front(), .to = listed.back(), .inner = listed.size()};
   axis.values = std::move(listed);
   return axis;

@@ -11,7 +11,7 @@ const double kNone = std::nan("");
 
 }  // namespace
 
-Influences::Influences(std::vector<std::size_t> classes, std::size_t metrics, bool drawn)
+Influences::Influences(const std::vector<std::size_t>& classes, std::size_t metrics, bool drawn)
     : first_{0}, metrics_(metrics), drawn_(drawn) {
   for (const std::size_t count : classes) first_.push_back(first_.back() + count);
   cells_ = first_.back();

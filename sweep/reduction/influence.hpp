@@ -31,7 +31,7 @@ class Influences {
   static constexpr std::size_t kGroups = 20;
 
   /// `classes`: of each entry, how many. `drawn`: the runs are samples; else all of a grid.
-  Influences(std::vector<std::size_t> classes, std::size_t metrics, bool drawn);
+  Influences(const std::vector<std::size_t>& classes, std::size_t metrics, bool drawn);
 
   /// A run: its draw, each entry's class, each metric (best with a mean near 0), not a number where it wasn't
   /// measured.
