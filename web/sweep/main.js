@@ -21,11 +21,12 @@ function section(id, title, ...children) {
   return one;
 }
 
-/** The metric that is shown first, the first that is told of, and the entry that moves it most. */
+/** The metric that is shown first, the first that is told of, and the two entries that have maps and move it most. */
 function strongest(data) {
   const one = data.influences.find(({ entries }) => entries.length > 0) ?? data.influences[0];
-  const [first] = [...(one?.entries ?? [])].sort((a, b) => (b.share ?? -1) - (a.share ?? -1));
-  return { metric: one?.metric, entry: first && data.placed.includes(first.entry) ? first.entry : data.placed[0] };
+  const told = [...(one?.entries ?? [])].sort((a, b) => (b.share ?? -1) - (a.share ?? -1)).map(({ entry }) => entry);
+  const [entry, second] = [...new Set([...told, ...data.placed])].filter((i) => data.placed.includes(i));
+  return { metric: one?.metric, entry, second };
 }
 
 /** Figures go to paper in light colours. */

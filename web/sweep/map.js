@@ -71,7 +71,7 @@ export class DensityMap {
     }).observe(this.box);
     // What moves most first: the strongest entry across, what it moves up.
     this.x.select.value = this.data.strongest.entry;
-    this.chooseX(this.data.placed.length > 1 ? this.data.placed.find((i) => i !== this.data.strongest.entry) : undefined);
+    this.chooseX(this.data.strongest.second);
     if (this.data.placed.length > 1 && this.data.metrics.length > 0) {
       this.colour.select.value = `mean ${this.data.metrics.indexOf(this.data.strongest.metric)}`;
       this.show();
