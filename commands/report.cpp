@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 #include "commands/children.hpp"
 #include "commands/commands.hpp"
 #include "commands/log_options.hpp"
+#include "commands/sweep_report.hpp"
 #include "commands/web_page.hpp"
 #include "loop/output_file.hpp"
 #include "notation/utf8.hpp"
 #include "report/page.hpp"
 #include "report/progress.hpp"
+#include "sweep/kept_sweep.hpp"
 
 namespace mixloop {
 namespace {
@@ -54,14 +56,35 @@ std::vector<ReportedRun> read_runs(ReportLine& options) {
   return runs;
 }
 
+/// Whether a sweep is to be reported. Throws InputError where it doesn't stand alone.
+bool is_of_a_sweep(const ReportLine& options) {
+  const auto sweep = std::ranges::find_if(options.paths, is_sweep_folder);
+  if (sweep == options.paths.end()) return false;
+  if (options.paths.size() > 1)
+    throw InputError(
+        "not_alone", {*sweep},
+        "a sweep's folder beside other results; expected it alone: a sweep has a page of its own");
+  if (!options.experiment.empty() || options.read.session != 0)
+    throw InputError(
+        "not_a_log", {*sweep},
+        "a sweep's folder has no sessions, and says of which experiment it is; expected it without "
+        "--session and --experiment");
+  return true;
+}
+
 int run(ReportLine& options) {
   StopSwitch stop;
   stop.turn_on_signals();
   const ShownWork work(stop);
-  const std::string page = web_page("report.html");
+  const bool of_a_sweep = is_of_a_sweep(options);
+  const std::string page = web_page(of_a_sweep ? "sweep.html" : "report.html");
+  const std::string out = options.out.empty() ? default_out(options.paths.front()) : options.out;
+  if (of_a_sweep) {
+    report_sweep(options.paths.front(), page, out, options.json);
+    return 0;
+  }
   std::vector<ReportedRun> runs = read_runs(options);
   const std::string text = report_page(page, runs, kMostBytes);
-  const std::string out = options.out.empty() ? default_out(options.paths.front()) : options.out;
   write_file(out, text);
   nlohmann::json json = {{"file", out}, {"bytes", text.size()}, {"results", nlohmann::json::array()}};
   for (const auto& run : runs)
@@ -87,7 +110,9 @@ int run(ReportLine& options) {
 void add_report_command(CLI::App& app, int& status) {
   auto options = std::make_shared<ReportLine>();
   auto* command = app.add_subcommand("report", "one self-contained HTML page of results or logs");
-  command->add_option("results", options->paths, "folders that --out kept, or LCM logs; several are overlaid")
+  command
+      ->add_option("results", options->paths,
+                   "folders that --out kept, or LCM logs; several are overlaid; or the folder of one sweep")
       ->required()
       ->type_name("RESULT_DIR|LOG");
   command
@@ -105,9 +130,14 @@ void add_report_command(CLI::App& app, int& status) {
       "coordinates, energy, command ages, inputs, versions and verdicts. Long runs are drawn by the least "
       "and the\n"
       "greatest of each few ticks, so that no peak is lost.\n"
+      "Of a sweep: distributions, maps of two entries or an entry and what was measured, which entry moves "
+      "it most, and\n"
+      "the worst runs, each with its command; of a million runs as of ten (docs/sweeps.md).\n"
       "Examples:\n"
       "  mixloop simulate experiments/paper.yaml --out results/paper && mixloop report results/paper\n"
       "  mixloop report results/paper results/three --out compared.html\n"
+      "  mixloop sweep experiments/payload.sweep.yaml --out results/payload && mixloop report "
+      "results/payload\n"
       "  mixloop report lcm-log.00 --experiment experiments/paper.yaml      # lcm-logger's own");
   command->callback([options, &status] { status = run(*options); });
 }

@@ -11,6 +11,7 @@
 #include "commands/runs_line.hpp"
 #include "commands/swept.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 #include "processes/called_as.hpp"
 #include "processes/command_line.hpp"
 #include "report/progress.hpp"
@@ -28,6 +29,25 @@ struct SweepLine : RunsLine {
   bool hashes = false;
   SweepOptions how;
 };
+
+/// The line again, without where it is kept and by whom it is run.
+std::string called(const SweepLine& line) {
+  std::string text = "mixloop sweep " + shell_word(line.file);
+  const auto add = [&](const char* option, const std::string& value) {
+    text += fmt::format(" {} {}", option, shell_word(value));
+  };
+  if (!line.case_name.empty()) add("--case", line.case_name);
+  for (const auto& one : line.sets) add("--set", one);
+  for (const auto& one : line.vary) add("--vary", one);
+  for (const auto& one : line.sample) add("--sample", one);
+  if (line.runs) add("--runs", std::to_string(*line.runs));
+  if (!line.design.empty()) add("--design", line.design);
+  if (line.seed) add("--seed", std::to_string(*line.seed));
+  if (!line.settled_within.empty()) add("--settled-within", line.settled_within);
+  if (line.hashes) text += " --hashes";
+  if (line.evaluation == Evaluation::reference) add("--evaluation", "reference");
+  return text;
+}
 
 /// `3/8`: the third of eight.
 Part part_of(const std::string& text) {
@@ -76,7 +96,10 @@ int run(SweepLine& line) {
   if (line.how.merges && line.how.out.empty())
     throw InputError("missing_key", {"--merge"},
                      "nothing to merge; expected --out FOLDER, that of the shards");
-  const Sweep sweep(name_of_sweep(line.file), request_of(line), line.evaluation, line.hashes);
+  const std::string as_asked = called(line);
+  SweepRequest request = request_of(line);
+  request.called = as_asked;
+  const Sweep sweep(name_of_sweep(line.file), request, line.evaluation, line.hashes);
   if (line.write_run) return write_one(line, sweep);
   if (line.how.peers != nullptr && line.how.peers->rank() > 0) {
     const auto patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * line.how.patience));

@@ -18,6 +18,7 @@
 #include "commands/swept.hpp"
 #include "notation/long_work.hpp"
 #include "notation/number_text.hpp"
+#include "notation/words.hpp"
 #include "processes/bus_line.hpp"
 #include "processes/keep.hpp"
 #include "processes/result_json.hpp"
@@ -71,7 +72,11 @@ Result tracked_sweep(const SuiteRun& run, const TrackLine& options, const StopSw
         "out_of_range", {run.file},
         "a sweep runs in this process, and listens to no other; expected track without --attach");
   SweepRequest request = read_sweep(run.file);
-  for (const Override& one : options.overrides()) request.overrides.push_back(one);
+  request.called = "mixloop sweep " + shell_word(run.file);
+  for (const Override& one : options.overrides()) {
+    request.overrides.push_back(one);
+    request.called += " --set " + shell_word(one.key + "=" + one.value);
+  }
   const Sweep sweep(run.name, request, options.evaluation, false);
   return result_of(
       sweep, swept(sweep, {.out = folder_of(run, options), .threads = options.jobs, .quiet = true}, stop));

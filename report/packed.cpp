@@ -4,6 +4,7 @@
 #include <openssl/evp.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <stdexcept>
@@ -22,12 +23,18 @@ std::string base64(std::span<const unsigned char> bytes) {
 }  // namespace
 
 std::string packed(std::span<const float> values) {
+  std::vector<std::uint32_t> patterns(values.size());
+  std::ranges::transform(values, patterns.begin(),
+                         [](float value) { return std::bit_cast<std::uint32_t>(value); });
+  return packed(patterns);
+}
+
+std::string packed(std::span<const std::uint32_t> values) {
   std::vector<unsigned char> planes(4 * values.size());
   std::uint32_t before = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto bits = std::bit_cast<std::uint32_t>(values[i]);
-    const std::uint32_t difference = bits - before;
-    before = bits;
+    const std::uint32_t difference = values[i] - before;
+    before = values[i];
     for (std::size_t plane = 0; plane < 4; ++plane)
       planes[plane * values.size() + i] = static_cast<unsigned char>(difference >> (8 * plane));
   }

@@ -74,20 +74,25 @@ double Design::drawn(std::int64_t draw, std::size_t dimension) const {
   return std::min(share, 1 - 0x1p-53);  // the last stratum's end rounds to 1
 }
 
-std::vector<RunValue> Design::values(std::int64_t run) const {
-  std::vector<RunValue> values(variations_.size());
+void Design::numbers(std::int64_t run, std::span<double> numbers) const {
   std::int64_t combination = run / draws_;
   for (std::size_t i = varied_; i-- > 0; combination /= variations_[i].size()) {
-    const Variation& variation = variations_[i];
-    const auto at = static_cast<std::size_t>(combination % variation.size());
-    if (variation.is_number())
-      values[i] = {variation.numbers[at], variation.text_of(variation.numbers[at])};
-    else
-      values[i] = {static_cast<double>(at), variation.texts[at]};
+    const std::int64_t at = combination % variations_[i].size();
+    numbers[i] = variations_[i].is_number() ? variations_[i].numbers[static_cast<std::size_t>(at)]
+                                            : static_cast<double>(at);
   }
-  for (std::size_t i = varied_; i < variations_.size(); ++i) {
-    const double number = variations_[i].distribution->quantile(drawn(run % draws_, i - varied_));
-    values[i] = {number, variations_[i].text_of(number)};
+  for (std::size_t i = varied_; i < variations_.size(); ++i)
+    numbers[i] = variations_[i].distribution->quantile(drawn(draw_of(run), i - varied_));
+}
+
+std::vector<RunValue> Design::values(std::int64_t run) const {
+  std::vector<double> numbers(variations_.size());
+  this->numbers(run, numbers);
+  std::vector<RunValue> values(variations_.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Variation& variation = variations_[i];
+    values[i] = {numbers[i], variation.is_number() ? variation.text_of(numbers[i])
+                                                   : variation.texts[static_cast<std::size_t>(numbers[i])]};
   }
   return values;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +43,13 @@ class Design {
   std::int64_t runs() const { return runs_; }
   /// What is listed, then what is drawn.
   const std::vector<Variation>& variations() const { return variations_; }
+  std::size_t varied() const { return varied_; }  ///< how many of them are listed
+  std::int64_t draws() const { return draws_; }   ///< 1 where nothing is drawn
+  /// Which draw a run has.
+  std::int64_t draw_of(std::int64_t run) const { return run % draws_; }
 
+  /// What variations() are in a run, each a number (RunValue::number); `numbers` has their size.
+  void numbers(std::int64_t run, std::span<double> numbers) const;
   std::vector<RunValue> values(std::int64_t run) const;
   /// As --set takes them.
   std::vector<Override> overrides(std::int64_t run) const;

@@ -16,6 +16,7 @@
 #include "loop/output_file.hpp"
 #include "loop/output_folder.hpp"
 #include "notation/utf8.hpp"
+#include "sweep/kept_sweep.hpp"
 
 namespace mixloop {
 namespace {
@@ -96,9 +97,9 @@ std::string SweepFolder::suffix() const {
 
 std::filesystem::path SweepFolder::journal() const { return folder_ / ("journal" + suffix()); }
 
-std::vector<std::filesystem::path> SweepFolder::journals() const {
+std::vector<std::filesystem::path> journals_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (const std::string name = entry.path().filename(); name == "journal" || name.starts_with("journal."))
       files.push_back(entry.path());
   std::ranges::sort(files);
@@ -109,11 +110,15 @@ std::vector<std::filesystem::path> SweepFolder::journals() const {
 void SweepFolder::keep_settings(const Sweep& sweep) const {
   const FileLock alone(folder_ / "lock.settings", FileLock::Kind::alone, true);
   const auto file = folder_ / "sweep.yaml";
-  if (std::filesystem::exists(file)) return require_same(read_document(file), sweep);
+  if (std::filesystem::exists(file)) {
+    require_same(read_document(file), sweep);
+    return write_kept_sweep(folder_, sweep);  // of an older folder, or called from elsewhere
+  }
   std::string text = "# What this folder's runs are of; written by mixloop sweep.\n";
   for (const auto& [key, value] : sweep.settings())
     text += fmt::format("{}: {}\n", nlohmann::json(key).dump(), nlohmann::json(value).dump());
   write_file(file, text);
+  write_kept_sweep(folder_, sweep);
 }
 
 }  // namespace mixloop

@@ -31,12 +31,15 @@ class FileLock {
   int descriptor_;
 };
 
+/// All journals that a sweep's folder has.
+std::vector<std::filesystem::path> journals_in(const std::filesystem::path& folder);
+
 /// The folder of a sweep's results, taken while it lives: the whole of it, or beside other parts one part.
 ///
-///   sweep.yaml                    what was asked for
-///   journal, journal.2-of-8       what became of runs, as they came
-///   lock, lock.2-of-8             who is at work
-///   table.csv, table.h5           of all runs, once they are all there
+///   sweep.yaml                    what was asked for: what the table depends on
+///   asked.yaml                    the same in full, for who reads the runs without the experiment
+///   (KeptSweep) journal, journal.2-of-8       what became of runs, as they came lock, lock.2-of-8 who is at
+///   work table.csv, table.h5           of all runs, once they are all there
 class SweepFolder {
  public:
   /// Makes it where there is none. Throws InputError: "another_sweep" with what differs where it holds one of
@@ -46,7 +49,7 @@ class SweepFolder {
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path journal() const;
   /// All that there are.
-  std::vector<std::filesystem::path> journals() const;
+  std::vector<std::filesystem::path> journals() const { return journals_in(folder_); }
 
  private:
   void keep_settings(const Sweep& sweep) const;

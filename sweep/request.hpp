@@ -20,6 +20,7 @@ struct ShareBound {
 
 /// What a sweep is to do: what its command line says, or its file.
 struct SweepRequest {
+  std::string called;  ///< the command line that asks for it, without where it is kept and by whom it is run
   std::filesystem::path experiment;
   std::vector<Override> overrides;  ///< of all runs
   Design::Settings design;

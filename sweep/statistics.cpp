@@ -35,8 +35,9 @@ struct Running {
 
 class Gathering {
  public:
-  explicit Gathering(const Sweep& sweep)
-      : sweep_(sweep), running_(sweep.telling().columns.size()), excess_(sweep.bounds().size(), -1) {
+  /// `sweep`: whose bounds are judged; null: none are.
+  Gathering(std::size_t columns, const Sweep* sweep)
+      : sweep_(sweep), running_(columns), excess_(sweep == nullptr ? 0 : sweep->bounds().size(), -1) {
     statistics_.columns.resize(running_.size());
     statistics_.bounds.resize(excess_.size());
   }
@@ -60,8 +61,8 @@ class Gathering {
     for (std::size_t i = 0; i < excess_.size(); ++i) {
       BoundStatistics& bound = statistics_.bounds[i];
       bound.is_held =
-          statistics_.runs > 0 &&
-          static_cast<double>(bound.held) >= sweep_.bounds()[i].share * static_cast<double>(statistics_.runs);
+          statistics_.runs > 0 && static_cast<double>(bound.held) >=
+                                      sweep_->bounds()[i].share * static_cast<double>(statistics_.runs);
     }
     return statistics_;
   }
@@ -77,9 +78,9 @@ class Gathering {
   }
 
   void judge(const Outcome& outcome) {
-    const Measures measures = sweep_.telling().columns.measures(outcome);
+    const Measures measures = sweep_->telling().columns.measures(outcome);
     for (std::size_t i = 0; i < excess_.size(); ++i) {
-      const Expectation& expected = sweep_.bounds()[i].expected;
+      const Expectation& expected = sweep_->bounds()[i].expected;
       BoundStatistics& bound = statistics_.bounds[i];
       auto missed = mixloop::missed(expected, measures);
       if (!outcome.code.empty()) missed = {"it could not be run: " + outcome.code};
@@ -95,7 +96,7 @@ class Gathering {
     }
   }
 
-  const Sweep& sweep_;
+  const Sweep* sweep_;
   std::vector<Running> running_;
   std::vector<double> excess_;  ///< of each bound's worst run
   Statistics statistics_;
@@ -103,7 +104,7 @@ class Gathering {
 
 /// The quantiles of some columns, by a pass over the runs.
 void add_quantiles(std::size_t begin, std::size_t end, const EachRun& each,
-                   std::vector<ColumnStatistics>& columns) {
+                   std::vector<ColumnStatistics>& columns, const OnColumn& on_column) {
   std::vector<std::vector<double>> values(end - begin);
   for (std::size_t i = begin; i < end; ++i)
     values[i - begin].reserve(static_cast<std::size_t>(columns[i].measured));
@@ -119,20 +120,30 @@ void add_quantiles(std::size_t begin, std::size_t end, const EachRun& each,
       std::nth_element(of.begin(), at, of.end());
       columns[i].quantiles[k] = *at;
     }
+    if (on_column) on_column(i, of);
+    of = {};
   }
 }
 
-}  // namespace
-
-Statistics statistics_of(const Sweep& sweep, const EachRun& each) {
-  Gathering gathering(sweep);
+Statistics gathered(Gathering gathering, const EachRun& each, const OnColumn& on_column) {
   each([&](const Outcome& outcome) { gathering.take(outcome); });
   Statistics statistics = gathering.told();
   const std::size_t runs = static_cast<std::size_t>(std::max<std::int64_t>(statistics.runs, 1));
   const std::size_t together = std::max<std::size_t>(kMostHeld / runs, 1);
   for (std::size_t begin = 0; begin < statistics.columns.size(); begin += together)
-    add_quantiles(begin, std::min(begin + together, statistics.columns.size()), each, statistics.columns);
+    add_quantiles(begin, std::min(begin + together, statistics.columns.size()), each, statistics.columns,
+                  on_column);
   return statistics;
+}
+
+}  // namespace
+
+Statistics statistics_of(const Sweep& sweep, const EachRun& each) {
+  return gathered(Gathering(sweep.telling().columns.size(), &sweep), each, {});
+}
+
+Statistics statistics_of(std::size_t columns, const EachRun& each, const OnColumn& on_column) {
+  return gathered(Gathering(columns, nullptr), each, on_column);
 }
 
 }  // namespace mixloop

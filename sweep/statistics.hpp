@@ -45,4 +45,10 @@ struct Statistics {
 /// at most, or one column.
 Statistics statistics_of(const Sweep& sweep, const EachRun& each);
 
+/// A column's measured values, all of them in any order; may sort them.
+using OnColumn = std::function<void(std::size_t column, std::vector<double>& values)>;
+
+/// The same of outcomes with so many values, without bounds; `on_column` is told each column on the way.
+Statistics statistics_of(std::size_t columns, const EachRun& each, const OnColumn& on_column);
+
 }  // namespace mixloop

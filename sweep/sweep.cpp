@@ -2,7 +2,6 @@
 #include "sweep/sweep.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <fstream>
 #include <iterator>
@@ -10,20 +9,10 @@
 #include "loop/inputs.hpp"
 #include "loop/origin.hpp"
 #include "notation/sha256.hpp"
-#include "notation/words.hpp"
+#include "sweep/command_text.hpp"
 
 namespace mixloop {
 namespace {
-
-/// All that stands in a variation, as a person could have written it.
-std::string written(const Variation& variation) {
-  if (const auto& drawn = variation.distribution)
-    return fmt::format("{}({}, {})", drawn->kind == Distribution::Kind::normal ? "normal" : "uniform",
-                       variation.text_of(drawn->first), variation.text_of(drawn->second));
-  std::vector<std::string> texts = variation.texts;
-  for (const double number : variation.numbers) texts.push_back(variation.text_of(number));
-  return fmt::format("{}", fmt::join(texts, ", "));
-}
 
 /// Of what the experiment's files say, overrides applied; what the controller reads from a file included.
 std::string hash_of(const Experiment& experiment) {
@@ -55,7 +44,7 @@ Sweep::Sweep(std::string name, const SweepRequest& request, Evaluation evaluatio
                {"experiment", request.experiment.string()},
                {"experiment_sha256", hash_of(experiment)}};
   for (const Variation& one : setup_.design().variations())
-    settings_.emplace_back(one.distribution ? "sample " + one.key : "vary " + one.key, written(one));
+    settings_.emplace_back(one.distribution ? "sample " + one.key : "vary " + one.key, one.written());
   settings_.emplace_back("runs", fmt::format("{}", runs()));
   if (!request.design.sampled.empty()) {
     settings_.emplace_back("design", name_of(request.design.spread));
@@ -88,11 +77,8 @@ void Sweep::require_some_run() const {
 }
 
 std::string Sweep::command(std::int64_t run) const {
-  std::string text = "mixloop simulate " + shell_word(setup_.request().experiment.string());
-  const auto add = [&](const Override& one) { text += " --set " + shell_word(one.key + "=" + one.value); };
-  for (const Override& one : setup_.request().overrides) add(one);
-  for (const Override& one : setup_.design().overrides(run)) add(one);
-  return text;
+  return simulate_command(setup_.request().experiment, setup_.request().overrides,
+                          setup_.design().overrides(run));
 }
 
 }  // namespace mixloop

@@ -2,6 +2,7 @@
 #include "sweep/variation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
@@ -153,6 +154,15 @@ std::int64_t Variation::size() const {
 
 std::string Variation::text_of(double number) const {
   return fmt::format("{}{}{}", number, unit.empty() ? "" : " ", unit);
+}
+
+std::string Variation::written() const {
+  if (distribution)
+    return fmt::format("{}({}, {})", distribution->kind == Distribution::Kind::normal ? "normal" : "uniform",
+                       text_of(distribution->first), text_of(distribution->second));
+  std::vector<std::string> listed = texts;
+  for (const double number : numbers) listed.push_back(text_of(number));
+  return fmt::format("{}", fmt::join(listed, ", "));
 }
 
 Variation parse_varied(const std::string& text) {

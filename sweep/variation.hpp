@@ -24,6 +24,8 @@ struct Variation {
   std::int64_t size() const;  ///< of what is listed
   /// What is written into the experiment for a number: the shortest text that reads back to it.
   std::string text_of(double number) const;
+  /// All that it is, as a person could have written it: `normal(5 kg, 0.5 kg)`, `0 kg, 2 kg`.
+  std::string written() const;
 };
 
 /// Of `key=from..to:count` (`0..5 kg:11`) or `key=value,value,...`. Throws InputError at `--vary KEY`.

@@ -8,7 +8,7 @@ import { notices } from './notices.js';
 const here = path.dirname(fileURLToPath(import.meta.url));
 const out = path.resolve(process.argv[2] ?? path.join(here, 'dist'));
 
-for (const page of ['report', 'view']) {
+for (const page of ['report', 'sweep', 'view']) {
   await build({
     configFile: false,
     root: path.join(here, page),

@@ -1,5 +1,6 @@
 import 'uplot/dist/uPlot.min.css';
 import '../shared/page.css';
+import '../shared/document.css';
 import './report.css';
 import { h, shown } from '../shared/dom.js';
 import { readRuns } from '../shared/runs.js';

@@ -1,7 +1,8 @@
 import uPlot from 'uplot';
+import { axis } from '../shared/axis.js';
 import { h, shown } from '../shared/dom.js';
 import { paintLegend } from '../shared/legend.js';
-import { cssColour, dashes, palettes, theme } from '../shared/theme.js';
+import { dashes, palettes, theme } from '../shared/theme.js';
 import { limitsNote, withLimits } from './limits.js';
 
 export const kMostPoints = 3000; // a curve, drawn at once: more than a screen has columns
@@ -43,22 +44,6 @@ export class Extent {
     const by = share * (this.max - this.min);
     this.set(this.min + by, this.max + by);
   }
-}
-
-/** An axis as all plots have it. */
-export function axis(label, extra) {
-  return {
-    label,
-    labelSize: 22,
-    labelGap: 2,
-    font: '12px system-ui, "DejaVu Sans", sans-serif',
-    labelFont: '13px system-ui, "DejaVu Sans", sans-serif',
-    stroke: () => cssColour('--quiet'),
-    grid: { stroke: () => cssColour('--grid'), width: 1 },
-    ticks: { stroke: () => cssColour('--line'), width: 1 },
-    values: (_, splits) => splits.map((value) => (value === null ? '' : shown(value, 5))),
-    ...extra,
-  };
 }
 
 /** The first index from which on `at(i)` is not below x. */

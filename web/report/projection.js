@@ -1,6 +1,7 @@
+import { axis } from '../shared/axis.js';
 import { shown } from '../shared/dom.js';
 import { dashes, palettes, theme } from '../shared/theme.js';
-import { axis, bisect, kMostPoints, Plot } from './plot.js';
+import { bisect, kMostPoints, Plot } from './plot.js';
 
 /**
  * A path seen along an axis: { title, axes: ['x', 'y'], lines: [{ run, curves: [horizontal, vertical], name, colour,

@@ -16,3 +16,8 @@ export function shown(value, digits = 6) {
   if (!Number.isFinite(value)) return String(value);
   return String(Number(value.toPrecision(digits)));
 }
+
+/** How many: with a comma at the thousands. */
+export function counted(number) {
+  return number.toLocaleString('en');
+}

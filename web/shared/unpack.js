@@ -5,7 +5,15 @@
  * @returns {Promise<Float32Array>}
  */
 export async function unpack(text, count) {
-  if (count === 0) return new Float32Array(0);
+  return new Float32Array((await unpackBits(text, count)).buffer);
+}
+
+/**
+ * The same before it is read as floats.
+ * @returns {Promise<Uint32Array>}
+ */
+export async function unpackBits(text, count) {
+  if (count === 0) return new Uint32Array(0);
   const deflated = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream('deflate'));
   const planes = new Uint8Array(await new Response(stream).arrayBuffer());
@@ -18,5 +26,5 @@ export async function unpack(text, count) {
     before = (before + difference) >>> 0;
     bits[i] = before;
   }
-  return new Float32Array(bits.buffer);
+  return bits;
 }
