@@ -104,7 +104,7 @@ TEST(Interrupted, TrackTellsOfEveryExperiment) {
       {"track", experiment("paper"), slow, experiment("via_points"), "--junit", folder.file("track.xml")},
       {}));
   ASSERT_TRUE(eventually([&] { return command.out().find("held") != std::string::npos; }));
-  EXPECT_EQ(interrupted(command, milliseconds(300)), 130) << command.out() << command.err();
+  EXPECT_EQ(interrupted(command, milliseconds(1500)), 130) << command.out() << command.err();
   const std::string junit = bytes_of(folder.file("track.xml"));
   EXPECT_THAT(junit, HasSubstr("tests=\"3\" failures=\"0\" errors=\"0\" skipped=\"2\""));
   EXPECT_THAT(junit, HasSubstr("name=\"paper\""));
