@@ -48,14 +48,6 @@ std::function<void()> mujocos_second() {
   return {};
 }
 
-/// What was never measured is not a number, and equal.
-bool are_equal(const std::vector<Outcome>& a, const std::vector<Outcome>& b) {
-  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  return std::ranges::equal(a, b, [&](const Outcome& x, const Outcome& y) {
-    return x.run == y.run && x.end == y.end && std::ranges::equal(x.values, y.values, same);
-  });
-}
-
 /// Runs of one kind, by both ways.
 class Kind {
  public:
@@ -65,7 +57,8 @@ class Kind {
   }
 
   bool is_equal() const {
-    return are_equal(lanes_(runs_, sweep_.telling()), run_one_by_one(runs_, sweep_.telling()));
+    return std::ranges::equal(lanes_(runs_, sweep_.telling()), run_one_by_one(runs_, sweep_.telling()),
+                              are_same);
   }
   void go_round() {
     alone = std::min(alone, seconds([&] { run_one_by_one(runs_, sweep_.telling()); }) / kRuns);

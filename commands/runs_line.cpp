@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <thread>
+
 #include "notation/value.hpp"
 
 namespace mixloop {
@@ -34,6 +36,11 @@ SweepRequest request_of(RunsLine& line) {
     request.settled_within = number_of(*parse_document(line.settled_within, "--settled-within"), kLength,
                                        "what counts as settled");
   return request;
+}
+
+int threads_of(const RunsLine& line) {
+  return line.threads > 0 ? line.threads
+                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 void add_list_option(CLI::App& command, const char* name, std::vector<std::string>& list, const char* what,

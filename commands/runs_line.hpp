@@ -29,6 +29,9 @@ void add_list_option(CLI::App& command, const char* name, std::vector<std::strin
 /// `draws`: how many are drawn unless the line says so.
 void add_runs_options(CLI::App& command, RunsLine& line, std::int64_t draws);
 
+/// How many runs at a time: as many as the line says, else one a core.
+int threads_of(const RunsLine& line);
+
 /// What the file asks for, if it is a sweep's, with what the line says on top. Throws InputError.
 SweepRequest request_of(RunsLine& line);
 

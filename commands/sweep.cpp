@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <charconv>
-#include <thread>
 
 #include "commands/commands.hpp"
 #include "commands/modules.hpp"
@@ -85,10 +84,7 @@ int run(SweepLine& line) {
   stop.turn_on_signals();
   const ShownWork work(stop);
   line.how.peers = peers_here();
-  line.how.threads = line.threads;
-  if (line.how.threads == 0)
-    line.how.threads =
-        line.how.peers != nullptr ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  line.how.threads = line.how.peers != nullptr && line.threads == 0 ? 1 : threads_of(line);
   line.how.part = part_of(line.shard);
   if (!line.how.part.is_whole() && line.how.out.empty())
     throw InputError("missing_key", {"--shard"},

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/packed.hpp"
+#include "report/page.hpp"
 
 namespace mixloop {
 namespace {
@@ -13,14 +14,12 @@ using nlohmann::ordered_json;
 
 constexpr std::uint32_t kNoRun = 0xffffffff;
 
-ordered_json finite(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
-
 ordered_json axis_json(const Axis& axis) {
   static constexpr const char* kKinds[] = {"even", "values", "words"};
   ordered_json json = {{"kind", kKinds[static_cast<std::size_t>(axis.kind)]},
                        {"logarithmic", axis.logarithmic},
-                       {"from", finite(axis.from)},
-                       {"to", finite(axis.to)},
+                       {"from", number_or_null(axis.from)},
+                       {"to", number_or_null(axis.to)},
                        {"cells", axis.inner}};
   if (axis.kind == Axis::Kind::values) json["values"] = axis.values;
   return json;
@@ -34,10 +33,10 @@ ordered_json variable_json(const Variable& variable, const Axis& in_maps) {
                        {"kind", kKinds[static_cast<std::size_t>(variable.kind)]},
                        {"least_is_worst", variable.least_is_worst},
                        {"measured", of.measured},
-                       {"mean", finite(of.mean)},
-                       {"deviation", finite(of.deviation)},
-                       {"least", finite(of.least)},
-                       {"most", finite(of.most)},
+                       {"mean", number_or_null(of.mean)},
+                       {"deviation", number_or_null(of.deviation)},
+                       {"least", number_or_null(of.least)},
+                       {"most", number_or_null(of.most)},
                        {"run_of_least", of.run_of_least},
                        {"run_of_most", of.run_of_most},
                        {"quantiles", ordered_json::array()},
@@ -46,7 +45,7 @@ ordered_json variable_json(const Variable& variable, const Axis& in_maps) {
                        {"histogram", variable.histogram}};
   if (!variable.words.empty()) json["words"] = variable.words;
   for (std::size_t i = 0; i < of.quantiles.size(); ++i)
-    json["quantiles"].push_back({ColumnStatistics::kShares[i], finite(of.quantiles[i])});
+    json["quantiles"].push_back({ColumnStatistics::kShares[i], number_or_null(of.quantiles[i])});
   return json;
 }
 
@@ -95,11 +94,11 @@ ordered_json influences_json(const Reduction& reduction) {
     for (const auto& one : metric.entries)
       entries.push_back({{"entry", one.entry},
                          {"classes", one.classes},
-                         {"share", finite(one.influence.share)},
-                         {"doubt", finite(one.influence.doubt)},
-                         {"share_of_ranks", finite(one.on_ranks.share)},
-                         {"doubt_of_ranks", finite(one.on_ranks.doubt)},
-                         {"rank_correlation", finite(one.rank_correlation)}});
+                         {"share", number_or_null(one.influence.share)},
+                         {"doubt", number_or_null(one.influence.doubt)},
+                         {"share_of_ranks", number_or_null(one.on_ranks.share)},
+                         {"doubt_of_ranks", number_or_null(one.on_ranks.doubt)},
+                         {"rank_correlation", number_or_null(one.rank_correlation)}});
     list.push_back({{"metric", metric.metric},
                     {"missing", kMissing[static_cast<std::size_t>(metric.missing)]},
                     {"runs", metric.runs},
@@ -116,10 +115,10 @@ ordered_json worst_json(const KeptSweep& sweep, const Reduction& reduction) {
       ordered_json values = ordered_json::array();
       const auto entries = sweep.design.values(one.run);
       for (std::size_t i = 0; i < entries.size(); ++i)
-        values.push_back(sweep.design.variations()[i].is_number() ? finite(entries[i].number)
+        values.push_back(sweep.design.variations()[i].is_number() ? number_or_null(entries[i].number)
                                                                   : ordered_json(entries[i].text));
       cases.push_back({{"run", one.run},
-                       {"value", finite(one.value)},
+                       {"value", number_or_null(one.value)},
                        {"end", name_of(one.end)},
                        {"entries", values},
                        {"command", sweep.command(one.run)}});

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <thread>
+#include <atomic>
 
 #include "commands/commands.hpp"
 #include "commands/runs_line.hpp"
@@ -94,12 +94,10 @@ int run(TuneLine& line) {
   StopSwitch stop;
   stop.turn_on_signals();
   const ShownWork work(stop);
-  const int threads =
-      line.threads > 0 ? line.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const TuneRequest request = tune_request_of(line);
   const std::filesystem::path file = file_for(line, request.sweep.experiment);
   std::atomic<bool> is_over = false;  // what there is is told after an interruption, too
-  const Problem problem(request, threads, [&] { return is_over || !stop.turned(); });
+  const Problem problem(request, threads_of(line), [&] { return is_over || !stop.turned(); });
 
   TuneStory story{.problem = &problem, .tuned = searched(problem, line), .before = {}, .after = {}};
   is_over = true;

@@ -8,6 +8,7 @@
 #include "loop/result.hpp"
 #include "notation/utf8.hpp"
 #include "processes/called_as.hpp"
+#include "report/page.hpp"
 
 namespace mixloop {
 namespace {
@@ -85,15 +86,10 @@ std::string ending(const TuneStory& story) {
   return text;
 }
 
-/// What isn't finite is null.
-nlohmann::json finite(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
-}
-
 nlohmann::json json_of(const Problem::Alone& alone, const Criteria& criteria) {
   nlohmann::json json = {{"end", name_of(alone.end)}};
   for (std::size_t i = 0; i < criteria.size(); ++i)
-    if (!std::isnan(alone.criteria[i])) json[criteria[i].name] = finite(alone.criteria[i]);
+    if (!std::isnan(alone.criteria[i])) json[criteria[i].name] = number_or_null(alone.criteria[i]);
   return json;
 }
 
@@ -154,8 +150,8 @@ nlohmann::json json_of(const TuneStory& story) {
        {{"name", problem.goal().name},
         {"sense", problem.goal().maximises ? "maximise" : "minimise"},
         {"unit", problem.criteria()[problem.goal().criteria[0]].unit},
-        {"before", finite(before.goal)},
-        {"after", finite(after.goal)}}},
+        {"before", number_or_null(before.goal)},
+        {"after", number_or_null(after.goal)}}},
       {"subject", nlohmann::json::array()},
       {"values", nlohmann::json::array()},
       {"runs", problem.runs()},
@@ -179,8 +175,8 @@ nlohmann::json json_of(const TuneStory& story) {
                                {"unit", criterion.unit},
                                {"sign", sign_of(bound)},
                                {"bound", bound.limit},
-                               {"before", finite(before.bounded[i])},
-                               {"after", finite(after.bounded[i])},
+                               {"before", number_or_null(before.bounded[i])},
+                               {"after", number_or_null(after.bounded[i])},
                                {"held", static_cast<bool>(after.held[i])}});
   }
   for (std::size_t i = 0; i < problem.knobs().size(); ++i) {

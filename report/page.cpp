@@ -12,10 +12,6 @@ using nlohmann::ordered_json;
 
 constexpr std::string_view kPlace = R"(<script id="mixloop-data" type="application/json">null</script>)";
 
-ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json();
-}
-
 ordered_json error_json(const TrackingError& error) {
   return {{"max", number_or_null(error.max)},
           {"time_of_max", number_or_null(error.time_of_max)},
@@ -84,6 +80,10 @@ ordered_json with_session_as_text(ordered_json result) {
 }
 
 }  // namespace
+
+ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json();
+}
 
 std::string with_data(const std::string& page, const ordered_json& data) {
   const std::size_t at = page.find(kPlace);

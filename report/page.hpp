@@ -8,6 +8,9 @@
 
 namespace mixloop {
 
+/// A number as pages and results have it: null where it isn't finite, which JSON can't say.
+nlohmann::ordered_json number_or_null(double value);
+
 /// A page bundled by web/, with its data put in. Throws RunFault("missing_part") where `page` has no place
 /// for it.
 std::string with_data(const std::string& page, const nlohmann::ordered_json& data);

@@ -57,7 +57,7 @@ std::vector<Outcome> run_batch(const Setup& setup, const Telling& telling, const
 
 std::vector<Outcome> run_batch(const Prepare& prepare, const Telling& telling, const Engine& engine,
                                std::int64_t first, std::int64_t count, const std::function<bool()>& goes_on) {
-  const std::int64_t together = std::max<std::int64_t>(8, engine.batch());
+  const std::int64_t together = std::max(Engine::kTogether, engine.batch());
   std::vector<Outcome> outcomes;
   for (std::int64_t begin = first; begin < first + count; begin += together) {
     if (begin > first && !goes_on()) break;

@@ -21,6 +21,8 @@ struct Telling {
 /// of each, in their order. Threads have one at once. Every engine gives the same bytes.
 class Engine {
  public:
+  static constexpr std::int64_t kTogether = 8;  ///< runs that lanes take at once
+
   using Go = std::function<std::vector<Outcome>(std::span<const PreparedRun> runs, const Telling& telling)>;
 
   /// Of a function, or of what says by batch() how many runs it wants at a time, where there are so many.

@@ -36,10 +36,13 @@ std::vector<std::filesystem::path> journals_in(const std::filesystem::path& fold
 
 /// The folder of a sweep's results, taken while it lives: the whole of it, or beside other parts one part.
 ///
-///   sweep.yaml                    what was asked for: what the table depends on
-///   asked.yaml                    the same in full, for who reads the runs without the experiment
-///   (KeptSweep) journal, journal.2-of-8       what became of runs, as they came lock, lock.2-of-8 who is at
-///   work table.csv, table.h5           of all runs, once they are all there
+/// | file | |
+/// |---|---|
+/// | sweep.yaml | what was asked for: what the table depends on |
+/// | asked.yaml | the same in full, for who reads the runs without the experiment (KeptSweep) |
+/// | journal, journal.2-of-8 | what became of runs, as they came |
+/// | lock, lock.2-of-8 | who is at work |
+/// | table.csv, table.h5 | of all runs, once they are all there |
 class SweepFolder {
  public:
   /// Makes it where there is none. Throws InputError: "another_sweep" with what differs where it holds one of

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "dynamics/scene/coordinate_values.hpp"
@@ -108,6 +110,15 @@ Measures Columns::measures(const Outcome& outcome) const {
   auto at = outcome.values.begin();
   go(measures, [&](const auto&, const auto&, auto& value) { put(*at++, value); });
   return measures;
+}
+
+bool are_same(const Outcome& a, const Outcome& b) {
+  const auto same = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) ||
+           (std::isnan(x) && std::isnan(y));
+  };
+  return a.run == b.run && a.end == b.end && a.code == b.code && a.sha256 == b.sha256 &&
+         std::ranges::equal(a.values, b.values, same);
 }
 
 }  // namespace mixloop

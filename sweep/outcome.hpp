@@ -27,6 +27,9 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
+/// To the bit; what was never measured is the same as itself.
+bool are_same(const Outcome& a, const Outcome& b);
+
 /// What is told of each run of an experiment, a number each in SI.
 class Columns {
  public:

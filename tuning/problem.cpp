@@ -16,7 +16,7 @@
 namespace mixloop {
 namespace {
 
-constexpr std::size_t kTogether = 8;  // runs that lanes take at a time
+constexpr std::size_t kTogether = Engine::kTogether;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::vector<Knob> knobs_of(const TuneRequest& request) {

@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 
 #include <atomic>
-#include <bit>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -29,15 +28,6 @@ std::vector<Outcome> gone_through(std::span<const PreparedRun* const> runs, cons
   for (std::size_t i = 0; i < runs.size(); ++i)
     outcomes.push_back(outcome_of(*runs[i], group.measures(i), telling));
   return outcomes;
-}
-
-/// To the bit.
-bool are_same(const Outcome& a, const Outcome& b) {
-  const auto same = [](double x, double y) {
-    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || (x != x && y != y);
-  };
-  return a.run == b.run && a.end == b.end && a.sha256 == b.sha256 &&
-         std::ranges::equal(a.values, b.values, same);
 }
 
 }  // namespace

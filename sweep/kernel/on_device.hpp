@@ -105,11 +105,14 @@ const char* closed_loops_on_device(const Common& common, const Each& each, const
   memory.place(there.mass_constants, each.mass_constants, Programs::mass_constants * runs);
   memory.place(there.bias_constants, each.bias_constants, Programs::bias_constants * runs);
   memory.place(there.hand_constants, each.hand_constants, Programs::hand_constants * runs);
-  memory.place(there.drives, each.drives, kDriveNumbers * n_u * runs);
-  memory.place(there.sensors, each.sensors, kSensorNumbers * n * runs);
-  memory.place(there.sensor_delay, each.sensor_delay, n * runs);
-  memory.place(there.velocity_share, each.velocity_share, runs);
-  memory.place(there.seeds, each.seeds, runs);
+  if constexpr (Programs::drives) memory.place(there.drives, each.drives, kDriveNumbers * n_u * runs);
+  if constexpr (Programs::sensors) {
+    memory.place(there.sensors, each.sensors, kSensorNumbers * n * runs);
+    memory.place(there.sensor_delay, each.sensor_delay, n * runs);
+    memory.place(there.velocity_share, each.velocity_share, runs);
+    memory.place(there.seeds, each.seeds, runs);
+    memory.place(told_there.sensor_ring, told.sensor_ring, told.sensor_ticks * 2 * n * runs, false);
+  }
   memory.place(told_there.ticks_recorded, told.ticks_recorded, runs, true);
   memory.place(told_there.most_error, told.most_error, runs, true);
   memory.place(told_there.most_error_tick, told.most_error_tick, runs, true);
@@ -121,7 +124,6 @@ const char* closed_loops_on_device(const Common& common, const Each& each, const
   if (told.trajectory != nullptr)
     memory.place(told_there.trajectory, told.trajectory, ticks * (2 * n + n_u) * runs, true);
   memory.place(told_there.ring, told.ring, told.ring_ticks * n_u * runs, false);
-  memory.place(told_there.sensor_ring, told.sensor_ring, told.sensor_ticks * 2 * n * runs, false);
   if (const char* failure = memory.put()) return failure;
   const unsigned blocks = (unsigned)((runs + kThreads - 1) / kThreads);
   closed_loops<Programs><<<blocks, kThreads, 0, cudaStreamPerThread>>>(common_there, there, told_there);

@@ -67,9 +67,9 @@ class Sensors {
   }
 
   MIXLOOP_FUNCTION void put(const Told& told, long long k, int what, const Real& value) const {
-    for (int tick = 0; tick < told.sensor_ticks; ++tick)
-      if (k == 0 || tick == k % told.sensor_ticks)
-        Memory<Real>::store(told.sensor_ring, tick * 2 * n + what, runs_, first_, value);
+    const int slot = (int)(k % told.sensor_ticks), end = k == 0 ? told.sensor_ticks : slot + 1;
+    for (int tick = slot; tick < end; ++tick)
+      Memory<Real>::store(told.sensor_ring, tick * 2 * n + what, runs_, first_, value);
   }
   /// As old as the sensor's delay; the first tick's stands for what is older.
   MIXLOOP_FUNCTION Real delayed(const Told& told, long long k, int what, int i) const {
