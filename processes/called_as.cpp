@@ -48,7 +48,13 @@ std::string replaced(const std::string& text, const std::regex& pattern, const N
 
 }  // namespace
 
-std::string own_folder() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
+std::string own_folder() {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  const std::string parts = "/" MIXLOOP_LIBDIR "/mixloop", where = folder.string();
+  return where.ends_with(parts) ? where.substr(0, where.size() - parts.size()) + "/" MIXLOOP_BINDIR : where;
+}
+
+std::string part(const std::string& name) { return own_folder() + "/../" MIXLOOP_LIBDIR "/mixloop/" + name; }
 
 std::string shared_file(const std::string& name) { return own_folder() + "/../share/mixloop/" + name; }
 

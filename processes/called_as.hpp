@@ -5,8 +5,11 @@
 
 namespace mixloop {
 
-/// The folder of the running executable, where its siblings lie.
+/// The folder of the programs that a person calls, where the running one lies, or beside which.
 std::string own_folder();
+
+/// What they need and nobody calls: a program or a module in lib/mixloop.
+std::string part(const std::string& name);
 
 /// What we install beside our commands: a file or folder below share/mixloop.
 std::string shared_file(const std::string& name);
