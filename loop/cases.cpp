@@ -58,7 +58,7 @@ std::vector<Case> cases_of(const std::filesystem::path& experiment) {
         Case with = before;
         with.name +=
             fmt::format("{}{}={}", with.name.empty() ? "" : ", ", short_name(entry.key), choice.name);
-        with.sets.push_back(entry.key + "=" + json_of(*choice.value).dump());
+        with.sets.push_back(entry.key + "=" + line_of(*choice.value));
         more.push_back(std::move(with));
       }
     if (more.size() > kMostCases)

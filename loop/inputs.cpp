@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "loop/inputs.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "loop/output_file.hpp"
 
 namespace mixloop {
@@ -23,6 +25,8 @@ nlohmann::ordered_json json_of(const Node& node) {
   for (const auto& entry : node.entries) mapping[entry.key] = json_of(*entry.value);
   return mapping;
 }
+
+std::string line_of(const Node& node) { return json_of(node).dump(); }
 
 namespace {
 

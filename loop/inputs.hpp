@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "loop/experiment.hpp"
 
@@ -10,6 +10,8 @@ namespace mixloop {
 
 /// A document as JSON: scalars are strings, as they were written, so that it reads back by parse_document.
 nlohmann::ordered_json json_of(const Node& node);
+/// The same in a line of text.
+std::string line_of(const Node& node);
 
 /// What a run was started from, overrides applied: {"name", "rate", "experiment", "scene",
 /// "limits", "faults", "plant_parameters"}. The documents read back (JSON is YAML); limits and faults are

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "loop/kept_json.hpp"
 #include "notation/sha256.hpp"

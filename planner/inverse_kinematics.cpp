@@ -6,6 +6,9 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "dynamics/procedure/decompositions.hpp"
 
 namespace mixloop {
 namespace {
@@ -36,10 +39,10 @@ class SquareSolution {
     if (is_small(A))
       small_.compute(filled(A));
     else
-      large_.compute(A);
+      large_.emplace(A);
   }
   Vector solve(const Vector& b) const {
-    if (size_ > 3) return large_.solve(b);
+    if (large_) return large_->solve(b);
     const Eigen::Vector3d x = small_.solve(filled(b, 0));
     return x.head(size_);
   }
@@ -47,7 +50,7 @@ class SquareSolution {
  private:
   Eigen::Index size_;
   Eigen::PartialPivLU<Eigen::Matrix3d> small_;
-  Eigen::PartialPivLU<Matrix> large_;
+  std::optional<Factored> large_;
 };
 
 /// The x with J x = b: of a square J by its LU; of a wide one the least x in units of `scale`.
@@ -56,7 +59,7 @@ class LeastSolution {
   LeastSolution(const Matrix& J, const Vector& scale)
       : J_(J),
         weighted_(is_square() ? Matrix() : Matrix(scale.cwiseAbs2().asDiagonal() * J.transpose())),
-        square_(is_square() ? J : Matrix(J * weighted_)) {}
+        square_(is_square() ? J : product(J, weighted_)) {}
 
   bool is_square() const { return J_.rows() == J_.cols(); }
   Vector solve(const Vector& b) const {
@@ -75,16 +78,21 @@ class LeastSolution {
   SquareSolution square_;
 };
 
+Vector solution(const Matrix& A, const Vector& b) { return Factored(A).solve(b); }
+Eigen::Vector3d solution(const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
+  return A.partialPivLu().solve(b);
+}
+
 /// Marquardt's step (J^T J + damping diag(J^T J)) x = J^T error (SIAM J. 11, 1963), worked out in units of
 /// `scale`. Of the unknowns the first `count` are some.
 template <class Square, class Column>
 Column marquardt_step(const Square& J, const Column& error, double damping, const Column& scale,
                       Eigen::Index count) {
   const Square scaled = J * scale.asDiagonal();
-  Square A = scaled.transpose() * scaled;
+  Square A = scaled.transpose().lazyProduct(scaled);
   const double least = 1e-12 * A.diagonal().head(count).maxCoeff();
   for (Eigen::Index i = 0; i < A.rows(); ++i) A(i, i) += damping * std::max(A(i, i), least);
-  return scale.cwiseProduct(A.partialPivLu().solve(scaled.transpose() * error));
+  return scale.cwiseProduct(solution(A, scaled.transpose() * error));
 }
 
 /// Marquardt's step; undamped, Newton's.
@@ -224,7 +232,7 @@ IkOutcome InverseKinematics::position_from_home(const PathPoint& point, double t
   if (arm_) return closed_form(point.position, psi);
   // A redundant mechanism goes round its singular poses, and has no sides.
   const auto side = [&](const Vector& at) {
-    return is_redundant() ? 1 : prescription_.miss(point, t, at).jacobian.determinant();
+    return is_redundant() ? 1 : Factored(prescription_.miss(point, t, at).jacobian).determinant();
   };
   const double home_side = side(home);
   const auto on_home_side = [&](const Vector& at) {

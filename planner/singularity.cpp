@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/procedure/decompositions.hpp"
 #include "planner/motion.hpp"
 
 namespace mixloop {
@@ -37,10 +36,10 @@ double signed_distance_to_singular(const Matrix& A) {
   if (!A.allFinite()) return std::nan("");
   const bool is_square = A.rows() == A.cols();
   if (is_square && A.rows() <= 3) return small_distance_to_singular(A);
-  const Vector sigma = Eigen::JacobiSVD<Matrix>(A).singularValues();
+  const Vector sigma = singular_values(A).s;
   if (!(sigma[sigma.size() - 1] > 0)) return 0;
   const double distance = 1 / sigma.cwiseInverse().norm();
-  return is_square ? std::copysign(distance, A.determinant()) : distance;
+  return is_square ? std::copysign(distance, Factored(A).determinant()) : distance;
 }
 
 }  // namespace
@@ -107,18 +106,18 @@ std::string SingularityMeasures::lost(std::size_t measure, const Vector& psi, do
   if (measure < named()) return {};
   const Matrix J = scaled_jacobian(psi, t);
   if (!J.allFinite()) return {};
-  const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::Index last = svd.singularValues().size() - 1;
+  const SingularValues found = singular_values(J);
+  const Eigen::Index last = found.s.size() - 1;
   std::string motors;
   if (J.rows() == J.cols()) {
-    const Vector idle = prescription_->on_all(svd.matrixV().col(last));
+    const Vector idle = prescription_->on_all(found.V.col(last));
     for (Eigen::Index i = 0; i < idle.size(); ++i)
       if (std::abs(idle[i]) > kTakesPart)
         motors += (motors.empty() ? "" : ", ") + model_.scene->motors()[static_cast<std::size_t>(i)].name;
     motors = fmt::format(", whatever {} {}", motors,
                          motors.find(',') == std::string::npos ? "does" : "do together");
   }
-  return fmt::format(" ({}{})", prescription_->text_of_lost(t, psi, svd.matrixU().col(last)), motors);
+  return fmt::format(" ({}{})", prescription_->text_of_lost(t, psi, found.U.col(last)), motors);
 }
 
 void SingularityMeasures::evaluate(const Vector& psi, double t, double* values) {

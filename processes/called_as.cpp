@@ -54,7 +54,9 @@ std::string own_folder() {
   return where.ends_with(parts) ? where.substr(0, where.size() - parts.size()) + "/" MIXLOOP_BINDIR : where;
 }
 
-std::string part(const std::string& name) { return own_folder() + "/../" MIXLOOP_LIBDIR "/mixloop/" + name; }
+std::string part(const std::string& name) {
+  return (fs::path(own_folder()) / ".." / MIXLOOP_LIBDIR / "mixloop" / name).lexically_normal().string();
+}
 
 std::string shared_file(const std::string& name) { return own_folder() + "/../share/mixloop/" + name; }
 

@@ -30,10 +30,10 @@ Matrix sampled_transition(const LinearLoop& loop, const Matrix& gain, const Samp
   const Held after(loop.A, loop.B, sampling.tick - rest), before(loop.A, loop.B, rest);
 
   Matrix next = Matrix::Zero(states + n_u * (d + 1), states + n_u * (d + 1));
-  next.topLeftCorner(states, states) = after.Phi * before.Phi;
-  next.block(0, states + n_u * d, states, n_u) = after.Phi * before.Gamma;  // u_{k-d-1}
+  next.topLeftCorner(states, states) = product(after.Phi, before.Phi);
+  next.block(0, states + n_u * d, states, n_u) = product(after.Phi, before.Gamma);  // u_{k-d-1}
   if (d == 0)
-    next.topLeftCorner(states, states) += after.Gamma * gain;  // u_k = gain x_k
+    next.topLeftCorner(states, states) += product(after.Gamma, gain);  // u_k = gain x_k
   else
     next.block(0, states + n_u * (d - 1), states, n_u) = after.Gamma;  // u_{k-d}
   next.block(states, 0, n_u, states) = gain;
@@ -48,7 +48,7 @@ double sampled_radius(const LinearLoop& loop, const Matrix& gain, const Sampling
 }
 
 Eigen::VectorXcd poles(const LinearLoop& loop, const Matrix& gain) {
-  return eigenvalues(loop.A + loop.B * gain);
+  return eigenvalues(loop.A + product(loop.B, gain));
 }
 
 double rk4_radius(const Eigen::VectorXcd& poles, double h) {

@@ -36,7 +36,7 @@ ShareBound read_bound(const NodePtr& node) {
 std::vector<Override> read_set(const NodePtr& node) {
   std::vector<Override> overrides;
   for (const auto& entry : entries_of(node, "what is set"))
-    overrides.push_back({entry.key, json_of(*entry.value).dump()});
+    overrides.push_back({entry.key, line_of(*entry.value)});
   return overrides;
 }
 

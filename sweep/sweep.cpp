@@ -16,7 +16,7 @@ namespace {
 
 /// Of what the experiment's files say, overrides applied; what the controller reads from a file included.
 std::string hash_of(const Experiment& experiment) {
-  std::string text = json_of(*experiment.document).dump() + json_of(*experiment.scene_document).dump() +
+  std::string text = line_of(*experiment.document) + line_of(*experiment.scene_document) +
                      experiment.controller_scene->canonical;
   const NodePtr controller = find_entry(*experiment.document, "controller");
   if (const NodePtr file = find_entry(*controller, "file")) {

@@ -182,7 +182,7 @@ Variation read_varied(const Node::Entry& entry) {
     return varied({entry.key, std::string(trimmed(entry.value->text)), entry.value->place});
   std::vector<std::string> texts;
   for (const auto& item : items_of(entry.value, "the values of a varied entry"))
-    texts.push_back(item->kind == Node::Kind::scalar ? item->text : json_of(*item).dump());
+    texts.push_back(item->kind == Node::Kind::scalar ? item->text : line_of(*item));
   if (texts.empty())
     throw InputError("wrong_size", entry.value->place,
                      "no value for " + in_quotes(entry.key) + "; expected one or more");

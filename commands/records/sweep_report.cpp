@@ -56,8 +56,9 @@ void report_sweep(const std::filesystem::path& folder, const std::string& page,
                   const std::filesystem::path& out, bool json) {
   const KeptSweep sweep = read_kept_sweep(folder);
   if (sweep.design.runs() > kMostSweptRuns)
-    throw InputError("too_large", {folder.string()},
-                     fmt::format("a sweep of {} runs; expected {} at most", sweep.design.runs(), kMostSweptRuns));
+    throw InputError(
+        "too_large", {folder.string()},
+        fmt::format("a sweep of {} runs; expected {} at most", sweep.design.runs(), kMostSweptRuns));
   const KeptRuns kept(journals_in(folder), sweep.sha256, sweep.columns.size());
   if (kept.done().empty())
     throw InputError("missing_runs", {folder.string()},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/program/explanation.hpp"
+#include "dynamics/explanation/explanation.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

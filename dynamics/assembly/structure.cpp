@@ -21,7 +21,7 @@ std::string name_of(const Closing& closing, int unknown) {
 }
 
 std::vector<std::string> loose(const Closing& closing, const Matrix& slopes) {
-  const auto values = singular_values(slopes.transpose() * slopes);
+  const auto values = singular_values(product(slopes.transpose(), slopes));
   std::vector<std::string> names;
   for (int i = 0; i < closing.unknowns(); ++i) {
     double part = 0;

@@ -30,4 +30,10 @@ void coordinate_rates(const Model<T>& model, std::span<const T> psi, std::span<c
   }
 }
 
+// Compiled once for double, in procedure.cpp.
+extern template void coordinates(const Model<double>&, std::span<const double>, const double&,
+                                 Workspace<double>&);
+extern template void coordinate_rates(const Model<double>&, std::span<const double>, std::span<const double>,
+                                      const double&, Workspace<double>&);
+
 }  // namespace mixloop

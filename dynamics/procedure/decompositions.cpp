@@ -7,7 +7,13 @@
 
 namespace mixloop {
 
+Matrix product(const Matrix& A, const Matrix& B) { return A * B; }
+
 Matrix solved(const Matrix& A, const Matrix& B) { return Eigen::PartialPivLU<Matrix>(A).solve(B); }
+
+Factored::Factored(const Matrix& A) : lu_(A) {}
+Vector Factored::solve(const Vector& b) const { return lu_.solve(b); }
+double Factored::determinant() const { return lu_.determinant(); }
 
 int SingularValues::rank() const {
   int rank = 0;

@@ -1,16 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/LU>
 #include <complex>
 
 #include "dynamics/procedure/matrix.hpp"
 
-/// What Eigen's decompositions of small dense matrices give, compiled once: each takes a compiler ten
-/// seconds.
+/// What Eigen's products and decompositions of dense matrices of any size give, compiled once: each takes a
+/// compiler ten seconds.
 namespace mixloop {
+
+Matrix product(const Matrix& A, const Matrix& B);
 
 /// A^-1 B, A n x n, by LU with partial pivoting; not finite where A is singular.
 Matrix solved(const Matrix& A, const Matrix& B);
+
+/// The same of one A and many B.
+class Factored {
+ public:
+  explicit Factored(const Matrix& A);
+  Vector solve(const Vector& b) const;
+  double determinant() const;
+
+ private:
+  Eigen::PartialPivLU<Matrix> lu_;
+};
 
 /// A = U diag(s) V^T, s descending, for any A (thin: as many columns as the shorter side).
 struct SingularValues {

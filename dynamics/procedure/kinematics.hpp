@@ -108,6 +108,9 @@ void frame_variations(const Model<T>& model, Workspace<T>& ws) {
   }
 }
 
+// Compiled once for double, in procedure.cpp.
+extern template void frame_variations(const Model<double>&, Workspace<double>&);
+
 /// (12), (13): [T']_0^i = sum_j q'_j [V]_j and sum_j q'_j [V']_j of every frame from ws.q and ws.qd; the
 /// double sum of (13) as a recursion along the tree.
 template <class T>

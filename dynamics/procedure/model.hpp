@@ -258,4 +258,7 @@ Model<T> make_model(const std::shared_ptr<const Scene>& scene, std::span<const T
   return model;
 }
 
+// Compiled once for double, in procedure.cpp.
+extern template Model<double> make_model(const std::shared_ptr<const Scene>&, std::span<const double>);
+
 }  // namespace mixloop

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <random>
 
+#include "dynamics/procedure/decompositions.hpp"
 #include "dynamics/procedure/procedure.hpp"
 #include "notation/utf8.hpp"
 
@@ -57,9 +57,10 @@ std::optional<FreeMotion> free_motion(const Model<double>& model, const Workspac
     if (!(ws.M(i, i) > kNothing * most[i])) motion[i] = 1;
   if (motion.any()) return FreeMotion{motion, true};
   const Vector scale = ws.M.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(scale.asDiagonal() * ws.M * scale.asDiagonal());
-  if (solver.eigenvalues()[0] > 8 * static_cast<double>(model.n()) * kRoundOff) return std::nullopt;
-  return FreeMotion{scale.cwiseProduct(solver.eigenvectors().col(0)), false};
+  const SingularValues found = singular_values(scale.asDiagonal() * ws.M * scale.asDiagonal());
+  const Eigen::Index least = found.s.size() - 1;
+  if (found.s[least] > 8 * static_cast<double>(model.n()) * kRoundOff) return std::nullopt;
+  return FreeMotion{scale.cwiseProduct(found.V.col(least)), false};
 }
 
 std::string listed(const std::vector<std::string>& names) {

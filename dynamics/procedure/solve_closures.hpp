@@ -138,4 +138,8 @@ void solve_closures(const Model<T>& model, std::span<const T> psi, const T& t, W
   }
 }
 
+// Compiled once for double, in procedure.cpp.
+extern template void solve_closures(const Model<double>&, std::span<const double>, const double&,
+                                    Workspace<double>&);
+
 }  // namespace mixloop

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/symbolic/evaluation_angles.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include "dynamics/procedure/decompositions.hpp"
 #include "dynamics/symbolic/operations.hpp"
 
 namespace mixloop {
@@ -117,7 +117,7 @@ std::size_t rank_of(const std::set<Angle>& harmonics) {
     for (Eigen::Index j = 0; j < kMostBaseAngles; ++j) rows(i, j) = angle[static_cast<std::size_t>(j)];
     ++i;
   }
-  return static_cast<std::size_t>(Eigen::FullPivLU<Eigen::MatrixXd>(rows).rank());
+  return static_cast<std::size_t>(singular_values(rows).rank());
 }
 
 // Phases that make a term of the angle, or of its double, a pure cosine.

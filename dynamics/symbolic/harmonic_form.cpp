@@ -54,13 +54,19 @@ void clean(FineMatrix& part, const FineMatrix& scale) {
     if (is_round_off(part.data()[i], scale.data()[i])) part.data()[i] = 0;
 }
 
+/// B^T A B, of a few rows.
+FineMatrix congruent(const FineMatrix& A, const FineMatrix& B) {
+  const FineMatrix AB = A.lazyProduct(B);
+  return B.transpose().lazyProduct(AB);
+}
+
 std::map<HarmonicKey, Sheet> transformed(const std::map<HarmonicKey, Sheet>& sheets,
                                          const FineMatrix& B_inverse) {
   std::map<HarmonicKey, Sheet> result;
   const FineMatrix size = B_inverse.cwiseAbs();
   for (const auto& [key, sheet] : sheets) {
-    Sheet now{B_inverse.transpose() * sheet.real * B_inverse,
-              B_inverse.transpose() * sheet.imaginary * B_inverse, size.transpose() * sheet.scale * size};
+    Sheet now{congruent(sheet.real, B_inverse), congruent(sheet.imaginary, B_inverse),
+              congruent(sheet.scale, size)};
     clean(now.real, now.scale);
     clean(now.imaginary, now.scale);
     if (!now.real.isZero(0) || !now.imaginary.isZero(0)) result[key] = std::move(now);

@@ -9,7 +9,7 @@
 
 #include "certification.hpp"
 #include "dynamics/assembly/load_scene.hpp"
-#include "dynamics/program/explanation.hpp"
+#include "dynamics/explanation/explanation.hpp"
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/trace.hpp"
 #include "notation/document.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "dynamics/explanation/explanation.hpp"
 #include "dynamics/procedure/procedure.hpp"
-#include "dynamics/program/explanation.hpp"
 #include "dynamics/symbolic/closed_chains.hpp"
 #include "dynamics/symbolic/evaluation_angles.hpp"
 #include "dynamics/symbolic/harmonic_form.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "dynamics/program/explanation.hpp"
+#include "dynamics/explanation/explanation.hpp"
 #include "dynamics/program/program.hpp"
 #include "dynamics/symbolic/closed_chains.hpp"
 #include "notation/utf8.hpp"

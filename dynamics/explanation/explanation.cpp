@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/program/explanation.hpp"
+#include "dynamics/explanation/explanation.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
 
+#include "dynamics/explanation/counted.hpp"
 #include "dynamics/procedure/outputs.hpp"
-#include "dynamics/program/counted.hpp"
 #include "dynamics/program/machine_code.hpp"
 #include "notation/long_work.hpp"
 
