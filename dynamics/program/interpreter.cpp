@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/program/interpreter.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -24,6 +25,7 @@ using Slot = Tape::Slot;
 using Kind = Tape::Kind;
 using Place = Interpreter::Place;
 using Handler = Interpreter::Handler;
+using Step = Interpreter::Step;
 
 // By one load of both slots: loads are what takes a run's time.
 struct Two {
@@ -49,86 +51,82 @@ template <Kind kind>
 }
 
 template <Kind kind, int count>
-[[gnu::always_inline]] inline Place run_of(const double* values, const Slot* operand, double* result) {
+[[gnu::always_inline]] inline void interpret(const double* values, const Slot* operand, double* result) {
+  if constexpr (kind.op == Op::sin) {
+    double angle[count], sine[count], cosine[count];
+#pragma GCC unroll 4
+    for (int k = 0; k < count; ++k) angle[k] = values[operand[k]];
+    mixloop_functions::sincos_of(angle, sine, cosine);
+#pragma GCC unroll 4
+    for (int k = 0; k < count; ++k) result[2 * k] = sine[k], result[2 * k + 1] = cosine[k];
+  } else {
 #pragma GCC unroll 8
-  for (int k = 0; k < count; ++k) result[k] = result_of<kind>(values, operand + k * operands_of(kind));
-  return {operand + count * operands_of(kind), result + count};
+    for (int k = 0; k < count; ++k) result[k] = result_of<kind>(values, operand + k * operands_of(kind));
+  }
 }
 
-template <int count>
-[[gnu::always_inline]] inline Place run_of_angles(const double* values, const Slot* operand, double* result) {
-  double angle[count], sine[count], cosine[count];
-#pragma GCC unroll 4
-  for (int k = 0; k < count; ++k) angle[k] = values[operand[k]];
-  mixloop_functions::sincos_of(angle, sine, cosine);
-#pragma GCC unroll 4
-  for (int k = 0; k < count; ++k) result[2 * k] = sine[k], result[2 * k + 1] = cosine[k];
-  return {operand + count, result + 2 * count};
-}
-
-template <Kind kind, int count>
-MIXLOOP_WITH_FMA Place with_fma(const double* values, const Slot* operand, double* result) {
-  if constexpr (kind.op == Op::sin)
-    return run_of_angles<count>(values, operand, result);
-  else
-    return run_of<kind, count>(values, operand, result);
-}
-
-template <Kind kind, int count>
-Place plain(const double* values, const Slot* operand, double* result) {
-  if constexpr (kind.op != Op::sin) return run_of<kind, count>(values, operand, result);
-  for (int k = 0; k < count; ++k, result += 2)
-    mixloop_functions::sincos(values[*operand++], result, result + 1);
+/// A run of so many instructions, or of so many blocks.
+template <Kind kind, int instructions>
+MIXLOOP_WITH_FMA Place with_fma(std::uint32_t count, const double* values, const Slot* operand,
+                                double* result) {
+  do {
+    interpret<kind, instructions>(values, operand, result);
+    operand += instructions * operands_of(kind), result += instructions * results_of(kind);
+  } while (instructions == block_of(kind) && (count -= instructions) > 0);
   return {operand, result};
 }
 
-struct Handlers {
-  Handler with_fma, plain;
-};
+template <Kind kind>
+Place plain(std::uint32_t count, const double* values, const Slot* operand, double* result) {
+  for (; count > 0; --count, operand += operands_of(kind), result += results_of(kind))
+    if constexpr (kind.op == Op::sin)
+      mixloop_functions::sincos(values[*operand], result, result + 1);
+    else
+      *result = result_of<kind>(values, operand);
+  return {operand, result};
+}
 
 template <Kind kind, int... less>
-Handlers of_length(int count, std::integer_sequence<int, less...>) {
-  static constexpr Handlers kHandlers[] = {{&with_fma<kind, less + 1>, &plain<kind, less + 1>}...};
-  return kHandlers[count - 1];
+Handler handler_of(std::uint32_t count, std::integer_sequence<int, less...>) {
+  static constexpr Handler kWithFma[] = {&with_fma<kind, less + 1>...};
+  return has_fma() ? kWithFma[std::min<std::size_t>(count, sizeof...(less)) - 1] : &plain<kind>;
 }
 
 template <std::size_t number>
-Handlers of_kind(int count) {
+Handler handler_of(std::uint32_t count) {
   constexpr Kind kind = kind_at(number);
-  if constexpr (longest_run(kind) == 0)
-    return {};
+  if constexpr (block_of(kind) == 0)
+    return nullptr;
   else
-    return of_length<kind>(count, std::make_integer_sequence<int, longest_run(kind)>());
+    return handler_of<kind>(count, std::make_integer_sequence<int, block_of(kind)>());
 }
 
 template <std::size_t... number>
-Handlers of_run(const Tape::Run& run, std::index_sequence<number...>) {
-  static constexpr std::array kKind = {&of_kind<number>...};
+Handler handler_of(const Tape::Run& run, std::index_sequence<number...>) {
+  static constexpr std::array kKind = {&handler_of<number>...};
   return kKind[number_of(run.kind)](run.count);
 }
 
-std::vector<Handler> handlers(const Tape::Part& part) {
-  std::vector<Handler> handlers;
-  for (const Tape::Run& run : part.runs) {
-    const Handlers found = of_run(run, std::make_index_sequence<kKinds>());
-    handlers.push_back(has_fma() ? found.with_fma : found.plain);
-  }
-  return handlers;
+std::vector<Step> steps(const Tape::Part& part) {
+  std::vector<Step> steps;
+  for (const Tape::Run& run : part.runs)
+    steps.push_back({handler_of(run, std::make_index_sequence<kKinds>()), run.count});
+  return steps;
 }
 
-void run_part(const std::vector<Handler>& handlers, const Tape::Part& part, double* values) noexcept {
+void run_part(const std::vector<Step>& steps, const Tape::Part& part, double* values) noexcept {
   const Slot* operand = part.operands.data();
   double* result = values + part.first;
-  for (const Handler handler : handlers) {
-    const Place next = handler(values, operand, result);
-    operand = next.operand, result = next.result;  // kept in registers so, as a Place isn't
+  for (const Step& step : steps) {
+    const Place next = step.handler(step.count, values, operand, result);
+    operand = next.operand, result = next.result;  // stay in registers, which a Place doesn't
   }
 }
 
 }  // namespace
 
 Interpreter::Interpreter(const Program& program)
-    : tape_(make_tape(program)), set_up_(handlers(tape_.set_up)), run_(handlers(tape_.run)) {}
+    : tape_(make_tape(program)), set_up_(steps(tape_.set_up)), run_(steps(tape_.run)) {}
 
 void Interpreter::set_up(std::span<const double> parameters, Memory& memory) const noexcept {
   double* values = memory.numbers.data();

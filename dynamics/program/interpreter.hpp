@@ -14,8 +14,14 @@ class Interpreter final : public Routine {
     const Tape::Slot* operand;
     double* result;
   };
-  /// Does one run of a tape; gives the place behind it.
-  using Handler = Place (*)(const double* values, const Tape::Slot* operand, double* result);
+  /// Interprets one run of a tape; gives the place behind it.
+  using Handler = Place (*)(std::uint32_t count, const double* values, const Tape::Slot* operand,
+                            double* result);
+  /// A run and what interprets it.
+  struct Step {
+    Handler handler;
+    std::uint32_t count;
+  };
 
   explicit Interpreter(const Program& program);
 
@@ -26,7 +32,7 @@ class Interpreter final : public Routine {
   void work_out(const Arguments& at, Memory& memory, double* outputs) const noexcept override;
 
   const Tape tape_;
-  const std::vector<Handler> set_up_, run_;  ///< of each of its runs
+  const std::vector<Step> set_up_, run_;
 };
 
 }  // namespace mixloop

@@ -119,29 +119,34 @@ class TapeMaker {
     };
     for (std::size_t i = 0; i < instructions_.size(); ++i)
       if (instructions_[i].stage == stage && missing[i] == 0) is_ready(i);
-    part.first = static_cast<Tape::Slot>(tape_.values.size());
-    for (;;) {
-      Ready& next = *std::max_element(ready.begin(), ready.end());
-      if (next.instructions.empty()) return;
-      for (std::size_t k = 0, end = 0; k < next.instructions.size(); ++k) {
-        const std::size_t i = next.instructions[k];
-        if (k == end) {
-          const Tape::Kind kind = instructions_[i].kind;
-          part.runs.push_back({kind, 0});
-          end += static_cast<std::size_t>(longest_run(kind));
-          // Angles are all taken before a sine stands.
-          if (kind.op == Op::sin) end = std::min(end, next.instructions.size());
-        }
+    const auto carry_out = [&](const Ready& kind) {
+      for (std::size_t k = 0; k < kind.instructions.size(); ++k) {
+        const std::size_t i = kind.instructions[k];
         emit(instructions_[i], part);
         for (std::size_t taker : takers[i])
           if (--missing[taker] == 0) is_ready(taker);
       }
-      next = {};
+      add_runs(instructions_[kind.instructions[0]].kind, kind.instructions.size(), part);
+    };
+    part.first = static_cast<Tape::Slot>(tape_.values.size());
+    for (;;) {
+      const auto next = std::max_element(ready.begin(), ready.end());
+      if (next->instructions.empty()) return;
+      if (kind_at(static_cast<std::size_t>(next - ready.begin())).op == Op::sin)
+        carry_out(std::exchange(
+            *next, {}));  // without what they make ready: angles are taken before a sine is there
+      else
+        carry_out(*next), *next = {};
     }
   }
 
+  static void add_runs(Tape::Kind kind, std::size_t count, Tape::Part& part) {
+    const std::size_t rest = count % static_cast<std::size_t>(block_of(kind));
+    for (const std::size_t n : {count - rest, rest})
+      if (n > 0) part.runs.push_back({kind, static_cast<std::uint32_t>(n)});
+  }
+
   void emit(const Instruction& instruction, Tape::Part& part) {
-    ++part.runs.back().count;
     for (NodeId id : instruction.takes) part.operands.push_back(slot_[id]);
     for (NodeId id : instruction.gives) {
       const Tape::Slot slot = fresh_slot();

@@ -18,10 +18,10 @@ struct Tape {
     Op op;                    ///< sin: the cosine, too, whose slot is the next one
     bool of_product = false;  ///< its last operand is a product, whose factors stand in its place
   };
-  /// Instructions of a kind, 1 to longest_run(kind).
+  /// Instructions of a kind: fewer than block_of(kind), or whole blocks.
   struct Run {
     Kind kind;
-    std::uint8_t count;
+    std::uint32_t count;
   };
   /// Runs one behind another, whose operands and results go on where those of the run before end.
   struct Part {
@@ -48,12 +48,13 @@ constexpr std::size_t number_of(Tape::Kind kind) {
   return static_cast<std::size_t>(kind.op) + (kind.of_product ? kOps : 0);
 }
 
-/// Slots that an instruction takes.
+/// Slots that an instruction takes and gives.
 constexpr int operands_of(Tape::Kind kind) { return arity(kind.op) + kind.of_product; }
+constexpr int results_of(Tape::Kind kind) { return kind.op == Op::sin ? 2 : 1; }
 
-/// So short that each length has its own code, without a loop whose end a processor would have to guess. Of
-/// sines as many as are taken together, of what takes long itself one; none of what is in no tape.
-constexpr int longest_run(Tape::Kind kind) {
+/// How many instructions are interpreted without a loop, whose end a processor would have to guess: of sines
+/// as many as are taken together, of what takes long itself one; none of what is in no tape.
+constexpr int block_of(Tape::Kind kind) {
   if (is_leaf(kind.op) || kind.op == Op::hold || kind.op == Op::cos ||
       (kind.of_product && arity(kind.op) < 3))
     return 0;
