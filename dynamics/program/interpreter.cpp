@@ -136,8 +136,7 @@ void Interpreter::set_up(std::span<const double> parameters, Memory& memory) con
 
 void Interpreter::work_out(const Arguments& at, Memory& memory, double* outputs) const noexcept {
   double* values = memory.numbers.data();
-  const double* const blocks[] = {at.psi.data(), at.psid.data(), at.input.data(),
-                                  &at.t};  // as Block has them
+  const double* const blocks[] = {at.psi.data(), at.psid.data(), at.input.data(), &at.t};  // in Block's order
   for (const Tape::Load& load : tape_.inputs)
     values[load.slot] = blocks[static_cast<std::size_t>(load.block)][load.index];
   run_part(run_, tape_.run, values);

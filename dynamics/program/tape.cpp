@@ -130,13 +130,13 @@ class TapeMaker {
     };
     part.first = static_cast<Tape::Slot>(tape_.values.size());
     for (;;) {
-      const auto next = std::max_element(ready.begin(), ready.end());
-      if (next->instructions.empty()) return;
-      if (kind_at(static_cast<std::size_t>(next - ready.begin())).op == Op::sin)
-        carry_out(std::exchange(
-            *next, {}));  // without what they make ready: angles are taken before a sine is there
+      Ready& next = *std::max_element(ready.begin(), ready.end());
+      if (next.instructions.empty()) return;
+      // Angles are taken before a sine is there: not those of sines that it makes ready.
+      if (instructions_[next.instructions[0]].kind.op == Op::sin)
+        carry_out(std::exchange(next, {}));
       else
-        carry_out(*next), *next = {};
+        carry_out(next), next = {};
     }
   }
 
