@@ -6,6 +6,7 @@
 
 #include "dynamics/program/interpreter.hpp"
 #include "dynamics/program/machine_code.hpp"
+#include "dynamics/program/program.hpp"
 #include "dynamics/program/reference.hpp"
 #include "dynamics/program/trace.hpp"
 #include "dynamics/scene/canonical.hpp"
@@ -30,18 +31,23 @@ Equations::Equations(std::shared_ptr<const Scene> scene, Evaluation how, std::sp
       options.friction_factor && scene_->has_friction() ? with_friction_factor(*scene_) : nullptr;
   for (Purpose purpose : purposes) {
     const auto at = static_cast<std::size_t>(purpose);
-    plain_[at] = routine(scene_, purpose, how);
-    if (scaled && signature(purpose).has_forces) scaled_[at] = routine(scaled, purpose, how);
+    plain_[at] = routine(scene_, purpose, how, options);
+    if (scaled && signature(purpose).has_forces) scaled_[at] = routine(scaled, purpose, how, options);
   }
   if (scene_->is_closed()) closures_ = of_closures(how);
 }
 
 std::unique_ptr<const Routine> Equations::routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,
-                                                  Evaluation how) {
+                                                  Evaluation how, Options options) {
   if (how == Evaluation::reference) return reference_routine(scene, purpose);
-  auto found = made(
-      std::string(name_of(purpose)) + "\n" + scene->canonical, [&] { return trace(scene, purpose).program; },
-      how);
+  // Where chains close, what solves them stands behind all outputs.
+  const bool position = options.position_alone && purpose == Purpose::end_effector && !scene->is_closed();
+  const auto program = [&] {
+    Program whole = trace(scene, purpose).program;
+    return position && !whole.outputs.empty() ? first_outputs(whole, 3) : whole;
+  };
+  auto found =
+      made(std::string(position ? "position" : name_of(purpose)) + "\n" + scene->canonical, program, how);
   if (found) return found;
   evaluation_ = Evaluation::reference;
   return reference_routine(scene, purpose);

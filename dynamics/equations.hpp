@@ -26,6 +26,9 @@ class Equations {
   class Workspace;
   struct Options {
     bool friction_factor = false;  ///< viscous friction is to be scaled by Workspace::set_parameters
+    bool position_alone = false;   ///< of the end effector nothing else is asked; the rest is left as it was
+
+    auto operator<=>(const Options&) const = default;
   };
 
   /// Traces (and compiles, or finds compiled) the programs. Throws InputError for a scene whose constraints
@@ -43,7 +46,7 @@ class Equations {
   using Routines = std::array<std::unique_ptr<const Routine>, kPurposes.size()>;
 
   std::unique_ptr<const Routine> routine(const std::shared_ptr<const Scene>& scene, Purpose purpose,
-                                         Evaluation how);
+                                         Evaluation how, Options options);
   std::unique_ptr<const Routine> of_closures(Evaluation how);
   /// Of a key and what it stands for; nothing for a program that is too long to trace.
   std::unique_ptr<const Routine> made(const std::string& key, const std::function<Program()>& program,

@@ -7,7 +7,7 @@ std::shared_ptr<const Equations> EquationsShelf::of(const std::shared_ptr<const 
                                                     const std::vector<Purpose>& purposes,
                                                     Equations::Options options) {
   const std::lock_guard lock(mutex_);
-  auto& equations = shelved_[{scene.get(), how, purposes, options.friction_factor}];
+  auto& equations = shelved_[{scene.get(), how, purposes, options}];
   if (!equations) equations = equations_of(scene, how, purposes, options);
   return equations;
 }

@@ -18,7 +18,7 @@ class EquationsShelf {
                                       const std::vector<Purpose>& purposes, Equations::Options options);
 
  private:
-  using Key = std::tuple<const Scene*, Evaluation, std::vector<Purpose>, bool>;
+  using Key = std::tuple<const Scene*, Evaluation, std::vector<Purpose>, Equations::Options>;
 
   std::mutex mutex_;
   std::map<Key, std::shared_ptr<const Equations>> shelved_;  ///< these keep their scenes

@@ -38,8 +38,9 @@ std::size_t Recorder::bytes_a_tick(const Experiment& experiment) {
 
 Recorder::Recorder(const Experiment& experiment, const Plan& plan, const RecorderSettings& settings)
     : plan_(plan),
-      kinematics_(equations_for(experiment, experiment.scene, {Purpose::end_effector}),
-                  experiment.plant_parameters),
+      kinematics_(
+          equations_for(experiment, experiment.scene, {Purpose::end_effector}, {.position_alone = true}),
+          experiment.plant_parameters),
       axes_(experiment.scene->end_effector.axes),
       n_(experiment.scene->independent.size()),
       n_u_(experiment.scene->motors().size()),

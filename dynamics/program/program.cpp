@@ -43,6 +43,29 @@ Program make_program(const Graph& graph, std::span<const NodeId> outputs) {
   return program;
 }
 
+Program first_outputs(const Program& whole, std::size_t count) {
+  std::vector<bool> needed(whole.nodes.size(), false);
+  for (std::size_t i = 0; i < count; ++i) needed[whole.outputs[i]] = true;
+  for (NodeId id = static_cast<NodeId>(whole.nodes.size()); id-- > 0;)
+    if (needed[id])
+      for (const NodeId operand : Operands(whole.nodes[id])) needed[operand] = true;
+  Program part;
+  std::vector<NodeId> place(whole.nodes.size());
+  for (NodeId id = 0; id < whole.nodes.size(); ++id) {
+    if (!needed[id]) continue;
+    ExpressionNode node = whole.nodes[id];
+    const auto taken = Operands(node);
+    NodeId* const ids[] = {&node.a, &node.b, &node.c};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(taken.end() - taken.begin()); ++i)
+      *ids[i] = place[taken.begin()[i]];
+    place[id] = static_cast<NodeId>(part.nodes.size());
+    part.nodes.push_back(node);
+    part.stages.push_back(whole.stages[id]);
+  }
+  for (std::size_t i = 0; i < count; ++i) part.outputs.push_back(place[whole.outputs[i]]);
+  return part;
+}
+
 OperationCount Program::operations(Stage stage) const {
   OperationCount count;
   const std::vector<NodeId> partner = partners();

@@ -36,4 +36,7 @@ double estimated_time(const OperationCount& count);
 
 Program make_program(const Graph& graph, std::span<const NodeId> outputs);
 
+/// The program of a program's first outputs: what is left of it has the same operations.
+Program first_outputs(const Program& whole, std::size_t count);
+
 }  // namespace mixloop

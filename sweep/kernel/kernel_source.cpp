@@ -14,30 +14,6 @@ extern const char* const kOnDeviceText;
 
 namespace {
 
-/// The program of a program's first outputs: what is left of it has the same operations.
-Program first_outputs(const Program& whole, std::size_t count) {
-  std::vector<bool> needed(whole.nodes.size(), false);
-  for (std::size_t i = 0; i < count; ++i) needed[whole.outputs[i]] = true;
-  for (NodeId id = static_cast<NodeId>(whole.nodes.size()); id-- > 0;)
-    if (needed[id])
-      for (const NodeId operand : Operands(whole.nodes[id])) needed[operand] = true;
-  Program part;
-  std::vector<NodeId> place(whole.nodes.size());
-  for (NodeId id = 0; id < whole.nodes.size(); ++id) {
-    if (!needed[id]) continue;
-    ExpressionNode node = whole.nodes[id];
-    const auto taken = Operands(node);
-    NodeId* const ids[] = {&node.a, &node.b, &node.c};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(taken.end() - taken.begin()); ++i)
-      *ids[i] = place[taken.begin()[i]];
-    place[id] = static_cast<NodeId>(part.nodes.size());
-    part.nodes.push_back(node);
-    part.stages.push_back(whole.stages[id]);
-  }
-  for (std::size_t i = 0; i < count; ++i) part.outputs.push_back(place[whole.outputs[i]]);
-  return part;
-}
-
 /// One of the loop's programs, and the member of Programs that calls it.
 struct LoopProgram {
   const char* name;
