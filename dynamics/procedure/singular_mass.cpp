@@ -58,8 +58,11 @@ std::optional<FreeMotion> free_motion(const Model<double>& model, const Workspac
   if (motion.any()) return FreeMotion{motion, true};
   const Vector scale = ws.M.diagonal().cwiseSqrt().cwiseInverse();
   const SingularValues found = singular_values(scale.asDiagonal() * ws.M * scale.asDiagonal());
-  const Eigen::Index least = found.s.size() - 1;
-  if (found.s[least] > 8 * static_cast<double>(model.n()) * kRoundOff) return std::nullopt;
+  // Of a symmetric matrix these are its eigenvalues' sizes; left and right vectors of a negative one are
+  // opposite.
+  const Vector values = found.s.cwiseProduct(found.U.cwiseProduct(found.V).colwise().sum().transpose());
+  Eigen::Index least = 0;
+  if (values.minCoeff(&least) > 8 * static_cast<double>(model.n()) * kRoundOff) return std::nullopt;
   return FreeMotion{scale.cwiseProduct(found.V.col(least)), false};
 }
 
