@@ -22,13 +22,14 @@ function(mixloop_compiled_as kind target)
   target_link_libraries(${target} PRIVATE mixloop_options mixloop_${kind})
   target_precompile_headers(${target} REUSE_FROM mixloop_precompiled_${kind})
 endfunction()
-function(mixloop_compiled_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${MIXLOOP_UNITY} UNITY_BUILD_BATCH_SIZE 6)
-endfunction()
-# Of these all files together: each batch that includes CLI11 compiles its validators and formatter, which takes five
+# Those for people all at once: each batch that includes CLI11 compiles its validators and formatter, which takes five
 # seconds.
-function(mixloop_compiled_as_one target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${MIXLOOP_UNITY} UNITY_BUILD_BATCH_SIZE 0)
+function(mixloop_compiled_together kind target)
+  set(batch 6)
+  if(kind STREQUAL people)
+    set(batch 0)
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${MIXLOOP_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
 endfunction()
 
 # mixloop_room(ROOM KIND SOURCES file... [PUBLIC library...] [PRIVATE library...])
@@ -38,11 +39,7 @@ function(mixloop_room room kind)
   add_library(mixloop::${room} ALIAS mixloop_${room})
   target_link_libraries(mixloop_${room} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   mixloop_compiled_as(${kind} mixloop_${room})
-  if(kind STREQUAL people)
-    mixloop_compiled_as_one(mixloop_${room})
-  else()
-    mixloop_compiled_together(mixloop_${room})
-  endif()
+  mixloop_compiled_together(${kind} mixloop_${room})
 endfunction()
 
 # What is compiled alike. Numbers: what is evaluated in the loop, or a thousand times before or after it. People: what
