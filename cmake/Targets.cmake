@@ -25,7 +25,7 @@ endfunction()
 # Those for people all at once: each batch that includes CLI11 compiles its validators and formatter, which takes five
 # seconds.
 function(mixloop_compiled_together kind target)
-  set(batch 6)
+  set(batch 12)
   if(kind STREQUAL people)
     set(batch 0)
   endif()

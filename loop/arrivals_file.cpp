@@ -56,7 +56,8 @@ struct Line {
 
 [[noreturn]] void refuse(const Line& line, const std::string& expected) {
   throw InputError("invalid_arrival", line.place,
-                   fmt::format("found '{}'; expected {}", fmt::join(line.fields, ","), expected));
+                   fmt::format("found '{},{},{},{}'; expected {}", line.fields[0], line.fields[1],
+                               line.fields[2], line.fields[3], expected));
 }
 
 Line split(std::string_view text, Place place) {

@@ -2,7 +2,6 @@
 #include "loop/experiment.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -18,6 +17,7 @@
 #include "notation/formula.hpp"
 #include "notation/utf8.hpp"
 #include "notation/value.hpp"
+#include "notation/words.hpp"
 #include "planner/path_keys.hpp"
 #include "plant/hardware.hpp"
 #include "plant/plant_keys.hpp"
@@ -213,10 +213,10 @@ std::string text_of(const Path& path) {
     text += fmt::format("{:a} {:a} {:a} {:a} {:a};", via.point.x(), via.point.y(), via.point.z(),
                         via.duration, via.dwell);
     for (const double motor : via.motors) text += fmt::format("motor {:a};", motor);
-    if (!via.turns.isZero(0)) text += fmt::format("turns {:a};", fmt::join(via.turns, " "));
-    if (via.direction) text += fmt::format("direction {:a};", fmt::join(*via.direction, " "));
+    if (!via.turns.isZero(0)) text += "turns " + joined("{:a}", {via.turns.data(), 3}, " ") + ";";
+    if (via.direction) text += "direction " + joined("{:a}", {via.direction->data(), 3}, " ") + ";";
   }
-  if (!path.held.empty()) text += fmt::format("hold {};", fmt::join(path.held, " "));
+  if (!path.held.empty()) text += "hold " + joined(path.held, " ") + ";";
   if (path.least_norm) text += "least norm;";
   return text + fmt::format("repeat {} approach {:a}", path.repeat, path.approach.value_or(0));
 }

@@ -2,7 +2,6 @@
 #include "notation/unit.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "notation/nearest.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
@@ -113,7 +113,7 @@ std::string unit_hint(std::string_view word) {
   for (const auto& name : unit_names())
     if (is_alike(word, name)) alike.push_back(name);
   if (const auto near = nearest(word, alike); !near.empty()) return "; did you mean '" + near + "'?";
-  return fmt::format("; expected one of {}", fmt::join(unit_names(), ", "));
+  return "; expected one of " + joined(unit_names());
 }
 
 }  // namespace mixloop

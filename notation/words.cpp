@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "notation/words.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -11,6 +13,27 @@ std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::string joined(std::span<const std::string> words, std::string_view between) {
+  std::string text;
+  for (const auto& word : words) {
+    if (&word != words.data()) text += between;
+    text += word;
+  }
+  return text;
+}
+
+std::string joined(std::span<const int> numbers, std::string_view between) {
+  std::vector<std::string> words;
+  for (const int number : numbers) words.push_back(std::to_string(number));
+  return joined(words, between);
+}
+
+std::string joined(std::string_view format, std::span<const double> numbers, std::string_view between) {
+  std::vector<std::string> words;
+  for (const double number : numbers) words.push_back(fmt::vformat(format, fmt::make_format_args(number)));
+  return joined(words, between);
 }
 
 std::string shell_word(const std::string& word) {

@@ -2,11 +2,11 @@
 #include "planner/itinerary.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "notation/words.hpp"
 #include "planner/cycloid.hpp"
 #include "planner/orientation.hpp"
 
@@ -109,7 +109,7 @@ std::string Itinerary::to_text(const Eigen::Vector3d& point) const {
 
 std::string Itinerary::to_text(const Path::Via& point) const {
   if (point.motors.size() == 0) return to_text(point.point);
-  return fmt::format("({:.6g})", fmt::join(point.motors, ", "));
+  return "(" + joined("{:.6g}", span_of(point.motors)) + ")";
 }
 
 std::string Itinerary::describe(double step) const {

@@ -2,11 +2,11 @@
 #include "plant/plant_settings.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "notation/value.hpp"
+#include "notation/words.hpp"
 #include "plant/plant_keys.hpp"
 
 namespace mixloop {
@@ -28,9 +28,9 @@ void read_integrator(const Mapping& entry, PlantSettings& settings) {
     const auto& words = words_of(plant_keys(), "integrator");
     const auto word = std::find(words.begin(), words.end(), text_of(*integrator, "the integrator"));
     if (word == words.end())
-      throw InputError("unknown_value", integrator->place,
-                       fmt::format("the integrator is {}; expected one of {}", describe(*integrator),
-                                   fmt::join(words, ", ")));
+      throw InputError(
+          "unknown_value", integrator->place,
+          fmt::format("the integrator is {}; expected one of {}", describe(*integrator), joined(words)));
     settings.automatic = *word == "auto";
     if (!settings.automatic) settings.integrator = static_cast<Method>(word - words.begin());
   }

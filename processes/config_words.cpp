@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "processes/config_words.hpp"
+#include "notation/words.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace mixloop {
 namespace {
@@ -15,9 +15,9 @@ std::string words_of(const Path& path) {
   for (const auto& via : path.vias) duration += via.duration + via.dwell;
   if (path.vias.empty()) return "none";
   if (path.is_of_motors())
-    return fmt::format("motors [{:g}] to [{:g}] in {:g} s over {} points",
-                       fmt::join(path.vias.front().motors, ", "), fmt::join(path.vias.back().motors, ", "),
-                       duration, path.vias.size());
+    return fmt::format("motors [{}] to [{}] in {:g} s over {} points",
+                       joined("{:g}", span_of(path.vias.front().motors)),
+                       joined("{:g}", span_of(path.vias.back().motors)), duration, path.vias.size());
   return fmt::format("{} to {} m in {:g} s over {} points", point(path.vias.front().point),
                      point(path.vias.back().point), duration, path.vias.size());
 }
@@ -33,7 +33,7 @@ ConfigWords config_words(const Experiment& experiment) {
           fmt::format("{} with {} motors", experiment.scene_document->place.file, scene.n_u()),
           experiment.has_path() ? words_of(experiment.path)
                                 : fmt::format("none, {:g} s long", *experiment.duration),
-          parameters.empty() ? "none" : fmt::format("{}", fmt::join(parameters, ", "))};
+          parameters.empty() ? "none" : joined(parameters)};
 }
 
 }  // namespace mixloop

@@ -17,6 +17,9 @@ struct PlantLine : PeerLine {
   int report_fd = -1;
 };
 
+/// The main function of mixloop-plant: reads its line, runs it, gives its exit status.
+int plant_main(int argc, char** argv, int (*run)(const PlantLine&));
+
 /// What it tells the plant's runner of an experiment.
 PlantOptions plant_options(const PlantLine& line, const Experiment& experiment, std::int64_t last_tick,
                            std::int64_t session);

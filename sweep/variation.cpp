@@ -2,7 +2,6 @@
 #include "sweep/variation.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
@@ -162,7 +161,7 @@ std::string Variation::written() const {
                        text_of(distribution->first), text_of(distribution->second));
   std::vector<std::string> listed = texts;
   for (const double number : numbers) listed.push_back(text_of(number));
-  return fmt::format("{}", fmt::join(listed, ", "));
+  return joined(listed);
 }
 
 Variation parse_varied(const std::string& text) {

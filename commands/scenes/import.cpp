@@ -3,7 +3,6 @@
 #include "import/import_urdf.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@
 #include "loop/output_file.hpp"
 #include "loop/output_folder.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 #include "processes/command_line.hpp"
 
 namespace mixloop {
@@ -65,9 +65,9 @@ nlohmann::json as_json(const Imported& made, const Written& files) {
 
 void print_summary(const Imported& made, const Written& files) {
   fmt::print("{}\n{}\n", printable_name(files.scene.string()), printable_name(files.experiment.string()));
-  fmt::print("  motors        {}\n", fmt::join(made.motors, ", "));
-  if (!made.free.empty()) fmt::print("  free          {}\n", fmt::join(made.free, ", "));
-  if (!made.following.empty()) fmt::print("  following     {}\n", fmt::join(made.following, ", "));
+  fmt::print("  motors        {}\n", joined(made.motors));
+  if (!made.free.empty()) fmt::print("  free          {}\n", joined(made.free));
+  if (!made.following.empty()) fmt::print("  following     {}\n", joined(made.following));
   fmt::print("  ground        the link {}\n  end effector  the link {}{}\n", printable_name(made.root),
              printable_name(made.tip),
              made.leaves.size() > 1

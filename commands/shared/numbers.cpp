@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands/shared/numbers.hpp"
+#include "notation/words.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace mixloop {
 
@@ -34,11 +34,12 @@ void print_lines(const nlohmann::json& value, const std::string& name) {
     fmt::print("{}\n  {:.15g}\n", name, value.get<double>());
   } else if (matrix) {
     fmt::print("{}\n", name);
-    for (const auto& row : value) fmt::print("  {: .15e}\n", fmt::join(row.get<std::vector<double>>(), "  "));
+    for (const auto& row : value)
+      fmt::print("  {}\n", joined("{: .15e}", row.get<std::vector<double>>(), "  "));
   } else if (!value.empty() && value[0].is_string()) {
-    fmt::print("{}\n  {}\n", name, fmt::join(value.get<std::vector<std::string>>(), "  "));
+    fmt::print("{}\n  {}\n", name, joined(value.get<std::vector<std::string>>(), "  "));
   } else {
-    fmt::print("{}\n  {: .15e}\n", name, fmt::join(value.get<std::vector<double>>(), "  "));
+    fmt::print("{}\n  {}\n", name, joined("{: .15e}", value.get<std::vector<double>>(), "  "));
   }
 }
 

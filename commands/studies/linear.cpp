@@ -2,7 +2,6 @@
 #include "commands/studies/linear.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "dynamics/procedure/decompositions.hpp"
 #include "loop/result.hpp"
 #include "notation/value.hpp"
+#include "notation/words.hpp"
 #include "stability/regulator.hpp"
 
 namespace mixloop {
@@ -97,7 +97,7 @@ std::string moves_on(const Scene& scene, const LinearPlant& plant) {
                                     coordinate.name));
   }
   if (missing.empty()) return {};
-  return fmt::format("the free coordinates don't stay so: that would take {}", fmt::join(missing, ", "));
+  return fmt::format("the free coordinates don't stay so: that would take {}", joined(missing));
 }
 
 }  // namespace

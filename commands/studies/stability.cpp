@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "loop/review.hpp"
 #include "notation/long_work.hpp"
 #include "notation/number_text.hpp"
+#include "notation/words.hpp"
 #include "plant/hardware.hpp"
 #include "processes/command_line.hpp"
 #include "stability/confirmation.hpp"
@@ -202,15 +202,15 @@ std::string not_at_rest(const Experiment& experiment, const Plan& plan) {
   const double size = 1e-9 + needed.cwiseAbs().maxCoeff();
   if (of_free.size() > 0 && of_free.cwiseAbs().maxCoeff() > 1e-6 * size)
     return fmt::format(
-        "the state that is fed back about is no rest: it takes [{:.6g}] at the free coordinates, where no "
+        "the state that is fed back about is no rest: it takes [{}] at the free coordinates, where no "
         "motor acts; the loop comes to rest elsewhere, if it does, and was looked at here",
-        fmt::join(of_free, ", "));
+        joined("{:.6g}", span_of(of_free)));
   if (at.psid.isZero(0) && (given - of_motors).cwiseAbs().maxCoeff() <= 1e-3 * size) return {};
   return fmt::format(
-      "the state that is fed back about is no rest: it takes a torque of [{:.6g}] and has "
-      "[{:.6g}] in about.torque; the loop comes to rest elsewhere, if it does, and was looked at "
+      "the state that is fed back about is no rest: it takes a torque of [{}] and has "
+      "[{}] in about.torque; the loop comes to rest elsewhere, if it does, and was looked at "
       "here",
-      fmt::join(of_motors, ", "), fmt::join(given, ", "));
+      joined("{:.6g}", span_of(of_motors)), joined("{:.6g}", span_of(given)));
 }
 
 class Study {

@@ -2,7 +2,6 @@
 #include "dynamics/assembly/assemble.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include "dynamics/assembly/structure.hpp"
 #include "dynamics/procedure/decompositions.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
@@ -52,11 +52,11 @@ std::vector<std::string> open_closures(Closing& closing, const Vector& x, const 
                      fmt::format("the closures contradict each other: with as many of them as there are "
                                  "coordinates without a formula, {} stay open. Expected fewer closures, or "
                                  "more coordinates",
-                                 fmt::join(open_closures(closing, x, closing.home_psi()), ", ")));
+                                 joined(open_closures(closing, x, closing.home_psi()))));
   throw InputError("cannot_assemble", place,
                    fmt::format("at home the mechanism can't be put together: at the nearest, {} stay open. "
                                "Expected other lengths, or a home that is within reach",
-                               fmt::join(open_closures(closing, x, closing.home_psi()), ", ")));
+                               joined(open_closures(closing, x, closing.home_psi()))));
 }
 
 /// From the guess, or where that leads nowhere, from places about it.
@@ -105,7 +105,7 @@ void refuse_held_motors(Closing& closing, const std::vector<Closing::Part>& bloc
           "overconstrained", closing.scene().closures.front().place,
           fmt::format("where the motors move, {} don't close: they hold what is to move. Expected "
                       "fewer closures, or more coordinates",
-                      fmt::join(open, ", ")));
+                      joined(open)));
   }
 }
 
@@ -156,7 +156,7 @@ std::string pose_text(const Closing& closing, const Closing::Part& block, const 
     texts.push_back(closing.turns(u) ? fmt::format("{}: {:.4g} deg", name, x[u] * 180 / std::numbers::pi)
                                      : fmt::format("{}: {:.4g} m", name, x[u] * closing.unit_of_unknown(u)));
   }
-  return fmt::format("{{{}}}", fmt::join(texts, ", "));
+  return "{" + joined(texts) + "}";
 }
 
 /// Whether all rows hold at home, those that were left aside included.

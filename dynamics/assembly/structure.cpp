@@ -2,13 +2,13 @@
 #include "dynamics/assembly/structure.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "dynamics/assembly/seeded.hpp"
 #include "dynamics/assembly/settle.hpp"
 #include "dynamics/procedure/decompositions.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
@@ -175,13 +175,13 @@ Structure structure_of(Closing& closing, const Vector& x) {
         "underconstrained", place,
         fmt::format("the closures determine {} of {} coordinates without a formula; {} can move while the "
                     "motors stand. Expected more closures, or a formula, a motor or 'free' for what moves",
-                    kept.size(), closing.unknowns(), fmt::join(loose(closing, slopes[best]), ", ")));
+                    kept.size(), closing.unknowns(), joined(loose(closing, slopes[best]))));
   if (independent_rows(slopes.front()).size() < kept.size())
     throw InputError(
         "singular_home", place,
         fmt::format("at home the mechanism is in a singular pose: {} can move there while the motors stand, "
                     "elsewhere not. Expected another home",
-                    fmt::join(loose(closing, slopes.front()), ", ")));
+                    joined(loose(closing, slopes.front()))));
   Structure structure;
   structure.blocks = Incidence(open_slopes(closing, x), kept, closing.unknowns()).blocks();
   for (int row = 0; row < closing.rows(); ++row) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // How a scene's closures are solved, in words.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "dynamics/explanation/explanation.hpp"
 #include "dynamics/program/program.hpp"
 #include "dynamics/symbolic/closed_chains.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 std::string names_of(const Scene& scene, const std::vector<int>& coordinates) {
   std::vector<std::string> names;
   for (int j : coordinates) names.push_back(scene.coordinates[static_cast<std::size_t>(j)].name);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return joined(names);
 }
 
 std::string closures_of(const Scene& scene, const std::vector<Scene::ClosureRow>& rows) {
@@ -23,7 +23,7 @@ std::string closures_of(const Scene& scene, const std::vector<Scene::ClosureRow>
     const std::string name = in_quotes(scene.closures[static_cast<std::size_t>(row.closure)].name);
     if (names.empty() || names.back() != name) names.push_back(name);
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return joined(names);
 }
 
 std::string words_for(const Scene& scene, const Scene::Block& block, BlockSolution how) {

@@ -2,7 +2,6 @@
 // Why a scene's programs are as small as they are, in words of mechanics. What has no influence is found by
 // varying it: on numbers, at seeded poses, so that no rule of the tracers has to be believed.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <random>
@@ -14,13 +13,12 @@
 #include "dynamics/symbolic/harmonic_form.hpp"
 #include "dynamics/symbolic/tracer.hpp"
 #include "notation/long_work.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
 
 using Sentences = std::vector<std::string>;
-
-std::string listed(const Sentences& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 /// The procedure with its coordinates q set freely, as if there were no constraints.
 class FreeTree {
@@ -141,14 +139,14 @@ void about_coordinates(const std::shared_ptr<const Scene>& scene, Sentences& say
   if (!no_inertia.empty())
     say.push_back(fmt::format(
         "No inertia depends on {}: what turns there turns as a whole, so its sine and cosine are not needed.",
-        listed(no_inertia)));
+        joined(no_inertia)));
   if (!no_weight.empty() &&
       scene->gravity[0].is_zero() + scene->gravity[1].is_zero() + scene->gravity[2].is_zero() < 3)
     say.push_back(fmt::format(
         "The potential does not depend on {}: gravity is parallel to the axis, or nothing is lifted.",
-        listed(no_weight)));
+        joined(no_weight)));
   if (!no_use.empty())
-    say.push_back(fmt::format("{} move no mass and not the end effector: skipped.", listed(no_use)));
+    say.push_back(fmt::format("{} move no mass and not the end effector: skipped.", joined(no_use)));
 }
 
 // A transform of the file may be several in a row, by frames without a name.
@@ -195,10 +193,10 @@ void about_bodies(const std::shared_ptr<const Scene>& scene, Sentences& say) {
       if (added[a] <= 1e-12 * (2 * scale + added[a])) idle.push_back(kAxes[a]);
     }
     if (!none.empty())
-      say.push_back(fmt::format("{} has no moment of inertia about {}.", name, listed(none)));
+      say.push_back(fmt::format("{} has no moment of inertia about {}.", name, joined(none)));
     if (!idle.empty())
       say.push_back(
-          fmt::format("{} never turns about its {}: that moment of inertia is skipped.", name, listed(idle)));
+          fmt::format("{} never turns about its {}: that moment of inertia is skipped.", name, joined(idle)));
   }
 }
 
@@ -237,10 +235,10 @@ void about_energy(const std::shared_ptr<const Scene>& scene, Graph& graph, Sente
   for (const auto& block : form.blocks) {
     Sentences rates;
     for (int i : block) rates.push_back(row_text(form.B.row(i), *scene));
-    blocks.push_back("{" + listed(rates) + "}");
+    blocks.push_back("{" + joined(rates) + "}");
   }
   say.push_back(fmt::format("The mass matrix is block diagonal in the rates {}: solved block by block.",
-                            fmt::join(blocks, " and ")));
+                            joined(blocks, " and ")));
 }
 
 }  // namespace
@@ -269,7 +267,7 @@ std::vector<std::string> reasons_of(const std::shared_ptr<const Scene>& scene) {
     say.push_back(
         fmt::format("Parameters ({}) stay variable: what depends on them alone is computed when they change, "
                     "not in an evaluation.",
-                    listed(names)));
+                    joined(names)));
   }
   return say;
 }

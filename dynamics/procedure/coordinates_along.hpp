@@ -120,6 +120,9 @@ class CoordinatesAlong {
   Workspace<T>& ws_;
 };
 
+// Compiled once for double, in procedure.cpp.
+extern template class CoordinatesAlong<double>;
+
 }  // namespace detail
 
 }  // namespace mixloop

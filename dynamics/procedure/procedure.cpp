@@ -3,6 +3,9 @@
 
 namespace mixloop {
 
+template class SmallSystem<double>;
+template struct Workspace<double>;
+template class detail::CoordinatesAlong<double>;
 template Model<double> make_model(const std::shared_ptr<const Scene>&, std::span<const double>);
 template void solve_closures(const Model<double>&, std::span<const double>, const double&,
                              Workspace<double>&);

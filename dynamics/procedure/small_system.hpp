@@ -140,4 +140,7 @@ class SmallSystem {
   Mat<T> inverse_, Q_, R_;
 };
 
+// Compiled once for double, in procedure.cpp.
+extern template class SmallSystem<double>;
+
 }  // namespace mixloop

@@ -106,4 +106,7 @@ struct Workspace {
   std::vector<LineStep<T>> line;  ///< of the load in hand, a link each
 };
 
+// Compiled once for double, in procedure.cpp.
+extern template struct Workspace<double>;
+
 }  // namespace mixloop

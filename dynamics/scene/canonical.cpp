@@ -2,9 +2,10 @@
 #include "dynamics/scene/canonical.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <span>
+
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
@@ -24,18 +25,18 @@ void add_closures(std::string& text, const Scene& scene) {
   for (const auto& closure : scene.closures) {
     text += fmt::format("closure {} {} {} {} {} {:a} {}\n", static_cast<int>(closure.kind), closure.frames[0],
                         closure.frames[1], closure.in, closure.least_axis, closure.home_length,
-                        fmt::join(closure.axes, " "));
+                        joined(closure.axes, " "));
     for (const auto& vector : closure.vectors) add(text, vector);
     add(text, closure.value);
   }
   for (const auto& coordinate : scene.coordinates)
     text += fmt::format("{:a} {} ", coordinate.home, coordinate.constraint.dimension.same_powers(kLength));
   for (const auto& block : scene.blocks) {
-    text += fmt::format("\nblock {} {}", fmt::join(block.unknowns, " "), block.by_newton);
-    if (!block.cut.empty()) text += fmt::format(" cut {}", fmt::join(block.cut, " "));
+    text += fmt::format("\nblock {} {}", joined(block.unknowns, " "), block.by_newton);
+    if (!block.cut.empty()) text += fmt::format(" cut {}", joined(block.cut, " "));
     for (const auto& row : block.rows) text += fmt::format(" {}.{}", row.closure, row.row);
   }
-  text += fmt::format("\nstarted {}\n", fmt::join(scene.started, " "));
+  text += fmt::format("\nstarted {}\n", joined(scene.started, " "));
 }
 
 }  // namespace
@@ -81,17 +82,16 @@ std::string canonical_text(const Scene& scene) {
     for (const auto* formula : {&load.law.stiffness, &load.law.rest, &load.law.damping}) add(text, *formula);
   }
   if (scene.friction_factor) text += "friction factor\n";
-  if (scene.from_starts)
-    text += fmt::format("from starts, acts along {}\n", fmt::join(scene.acts_along, " "));
+  if (scene.from_starts) text += fmt::format("from starts, acts along {}\n", joined(scene.acts_along, " "));
   if (scene.is_closed()) add_closures(text, scene);
   text += "gravity\n";
   add(text, scene.gravity);
   if (scene.end_effector.named) {
-    text += fmt::format("end effector {} {}\n", scene.end_effector.frame,
-                        fmt::join(scene.end_effector.axes, " "));
+    text +=
+        fmt::format("end effector {} {}\n", scene.end_effector.frame, joined(scene.end_effector.axes, " "));
     add(text, scene.end_effector.point);
     if (!scene.end_effector.turns.empty())
-      text += fmt::format("turns about {}\n", fmt::join(scene.end_effector.turns, " "));
+      text += fmt::format("turns about {}\n", joined(scene.end_effector.turns, " "));
     if (const auto& direction = scene.end_effector.direction)
       text += fmt::format("points along {:a} {:a} {:a}\n", (*direction)[0], (*direction)[1], (*direction)[2]);
   } else {

@@ -6,6 +6,14 @@
 #include "dynamics/symbolic/tracer.hpp"
 
 namespace mixloop {
+
+template class SmallSystem<Expression>;
+template struct Workspace<Expression>;
+template class detail::CoordinatesAlong<Expression>;
+template Model<Expression> make_model(const std::shared_ptr<const Scene>&, std::span<const Expression>);
+template void coordinates(const Model<Expression>&, std::span<const Expression>, const Expression&,
+                          Workspace<Expression>&);
+
 namespace {
 
 class LiteralTracer final : public Tracer {

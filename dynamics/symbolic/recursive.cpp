@@ -9,7 +9,7 @@ namespace {
 using E = Expression;
 using V3 = Expression3;
 
-struct Motion {
+struct LinkMotion {
   V3 w = zero3(), alpha = zero3(), a = zero3();
 };
 
@@ -141,7 +141,7 @@ class RecursiveTracer final : public Tracer {
   }
 
   std::vector<Wrench> inertial_wrenches(const ExpressionVector& qdd, const Driven& driven) const {
-    std::vector<Motion> motion(frames_.size() + 1);
+    std::vector<LinkMotion> motion(frames_.size() + 1);
     motion[0].a = -driven.gravity;
     for (std::size_t i = 0; i < frames_.size(); ++i)
       motion[i + 1] = carried(i, motion[frames_.parent(i)], driven.qd, qdd);
@@ -164,10 +164,10 @@ class RecursiveTracer final : public Tracer {
     return force;
   }
 
-  Motion carried(std::size_t i, const Motion& below, const ExpressionVector& qd,
-                 const ExpressionVector& qdd) const {
+  LinkMotion carried(std::size_t i, const LinkMotion& below, const ExpressionVector& qd,
+                     const ExpressionVector& qdd) const {
     const LinkFrames::Link& link = frames_[i];
-    Motion mid{link.theta.into_z(below.w), link.theta.into_z(below.alpha), link.theta.into_z(below.a)};
+    LinkMotion mid{link.theta.into_z(below.w), link.theta.into_z(below.alpha), link.theta.into_z(below.a)};
     const V3 w_below = mid.w;
     if (link.moves && !frames_.prismatic(i)) {
       const E rate = frames_.scale(i) * qd[frames_.coordinate(i)];
@@ -182,7 +182,7 @@ class RecursiveTracer final : public Tracer {
     return {link.alpha.into_x(mid.w), link.alpha.into_x(mid.alpha), link.alpha.into_x(mid.a)};
   }
 
-  static Wrench inertial_wrench(const Inertia& body, const Motion& motion) {
+  static Wrench inertial_wrench(const Inertia& body, const LinkMotion& motion) {
     const V3 Iw = body.tensor.lazyProduct(motion.w), Ialpha = body.tensor.lazyProduct(motion.alpha);
     return {V3(motion.a * body.mass + cross(motion.alpha, body.moment) +
                cross(motion.w, cross(motion.w, body.moment))),

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "dynamics/procedure/workspace.hpp"
+#include "dynamics/procedure/constraints.hpp"
 #include "dynamics/scene/scene.hpp"
 #include "dynamics/symbolic/expression.hpp"
 
@@ -11,6 +11,15 @@ namespace mixloop {
 
 using ExpressionVector = Vec<Expression>;
 using ExpressionMatrix = Mat<Expression>;
+
+// Compiled once, in literal.cpp.
+extern template class SmallSystem<Expression>;
+extern template struct Workspace<Expression>;
+extern template class detail::CoordinatesAlong<Expression>;
+extern template Model<Expression> make_model(const std::shared_ptr<const Scene>&,
+                                             std::span<const Expression>);
+extern template void coordinates(const Model<Expression>&, std::span<const Expression>, const Expression&,
+                                 Workspace<Expression>&);
 
 /// A scene's inputs as expressions of the recording graph.
 struct TracedInputs {

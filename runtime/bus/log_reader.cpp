@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "notation/errors.hpp"
+#include "notation/words.hpp"
 #include "runtime/bus/big_endian.hpp"
 
 namespace mixloop {
@@ -36,12 +37,16 @@ LogReader::LogReader(const std::filesystem::path& file) : file_(file) {
   size_ = static_cast<std::int64_t>(std::filesystem::file_size(file));
   if (size_ == 0)
     throw InputError("empty_log", {file.string()}, "is empty; expected an LCM event log with events in it");
-  if (!have(std::min<std::size_t>(sizeof kMagic, static_cast<std::size_t>(size_))) ||
-      !std::equal(window_.begin(), window_.begin() + std::min<std::ptrdiff_t>(4, size_), kMagic))
-    throw InputError(
-        "not_a_log", {file.string()},
-        fmt::format("begins with {:02X}; expected an LCM event log, which begins with ED A1 DA 01",
-                    fmt::join(window_.begin(), window_.begin() + std::min<std::ptrdiff_t>(4, size_), " ")));
+  const bool has_begun = have(std::min<std::size_t>(sizeof kMagic, static_cast<std::size_t>(size_)));
+  const std::span<const std::uint8_t> begins(window_.data(),
+                                             static_cast<std::size_t>(std::min<std::int64_t>(4, size_)));
+  if (!has_begun || !std::ranges::equal(begins, std::span(kMagic).first(begins.size()))) {
+    std::string bytes;
+    for (const std::uint8_t byte : begins) bytes += fmt::format("{:02X} ", byte);
+    throw InputError("not_a_log", {file.string()},
+                     fmt::format("begins with {}; expected an LCM event log, which begins with ED A1 DA 01",
+                                 trimmed(bytes)));
+  }
 }
 
 // Whether so many bytes are there from at_ on; reads another block where they aren't. Never past the size

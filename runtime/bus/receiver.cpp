@@ -19,9 +19,9 @@
 namespace mixloop {
 namespace {
 
-constexpr std::size_t kHeader = 8;        // magic and sequence number
-constexpr std::size_t kLongestName = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
-constexpr int kBuffer = 4 << 20;          // bytes that may wait; the kernel gives what rmem_max allows
+constexpr std::size_t kDatagramHeader = 8;  // magic and sequence number
+constexpr std::size_t kLongestName = 63;    // LCM_MAX_CHANNEL_NAME_LENGTH
+constexpr int kBuffer = 4 << 20;            // bytes that may wait; the kernel gives what rmem_max allows
 
 [[noreturn]] void refuse(int socket, const char* what) {
   const std::string why = std::strerror(errno);
@@ -103,9 +103,9 @@ const Received* Receiver::next() {
 bool read_short_message(Bytes datagram, Received& message) {
   const std::uint8_t* bytes = datagram.data();
   const std::size_t size = datagram.size();
-  if (size < kHeader + 1 || big_endian<std::uint32_t>(bytes) != kShortMessage) return false;
-  const std::uint8_t* name = bytes + kHeader;
-  const std::size_t room = std::min(size - kHeader, kLongestName + 1);
+  if (size < kDatagramHeader + 1 || big_endian<std::uint32_t>(bytes) != kShortMessage) return false;
+  const std::uint8_t* name = bytes + kDatagramHeader;
+  const std::size_t room = std::min(size - kDatagramHeader, kLongestName + 1);
   const auto* end = static_cast<const std::uint8_t*>(std::memchr(name, 0, room));
   if (end == nullptr) return false;
   message.channel = {reinterpret_cast<const char*>(name), static_cast<std::size_t>(end - name)};

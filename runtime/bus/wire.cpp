@@ -6,12 +6,12 @@
 namespace mixloop {
 namespace {
 
-constexpr std::size_t kFingerprint = 8, kHeader = kFingerprint + 4 + 4 * 8;
+constexpr std::size_t kFingerprint = 8, kMessageHeader = kFingerprint + 4 + 4 * 8;
 
 }  // namespace
 
 std::optional<Header> peek(Bytes bytes) {
-  if (bytes.size() < kHeader) return std::nullopt;
+  if (bytes.size() < kMessageHeader) return std::nullopt;
   const std::uint8_t* at = bytes.data() + kFingerprint;
   return Header{.n = big_endian<std::int32_t>(at),
                 .utime = big_endian<std::int64_t>(at + 4),

@@ -14,7 +14,7 @@ namespace {
 using Kind = Variable::Kind;
 
 constexpr std::size_t kBars = 60;         // of a histogram
-constexpr std::size_t kMostValues = 40;   // of a list that has a cell each
+constexpr std::size_t kMostCells = 40;    // of a list that has a cell each
 constexpr std::size_t kMostMetrics = 12;  // that colour maps
 constexpr std::size_t kMostPlaced = 8;    // entries that maps have
 constexpr double kMostNumbers = 1.2e6;    // in the cells of all maps
@@ -38,10 +38,10 @@ EachRun as_variables(const KeptSweep& sweep, const EachRun& each, const char* wh
 /// As many cells as `inner`, but for what has few values of its own.
 Axis axis_of(const Variable& variable, const Variation* listed, std::span<const double> sorted,
              std::size_t inner) {
-  if (!variable.words.empty()) return words_axis(std::min(variable.words.size(), kMostValues));
+  if (!variable.words.empty()) return words_axis(std::min(variable.words.size(), kMostCells));
   if (variable.kind == Kind::listed) {
     Axis axis = values_axis(listed->numbers);
-    if (axis.inner <= kMostValues) return axis;
+    if (axis.inner <= kMostCells) return axis;
   }
   return even_axis(sorted, inner);
 }
