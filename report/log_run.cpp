@@ -94,7 +94,7 @@ class SessionReader {
 
   // Each is sent some times over, with the same number.
   void take_fault(const LogEvent& event) {
-    fault_t m;
+    fault_t m{};
     if (!decode(event.data, m) || m.session != session_.session || m.seq <= last_fault_) return;
     if (m.target < fault_t::TARGET_MOTOR || m.target > fault_t::TARGET_FRICTION) return;
     if (m.kind < fault_t::KIND_NONE || m.kind > fault_t::KIND_CHANGED) return;

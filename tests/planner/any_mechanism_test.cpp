@@ -51,10 +51,6 @@ end_effector: {frame: hand, )" +
          end_effector + "}\n";
 }
 
-Plan plan_of(const Model<double>& model, const std::string& path, const Plan::Settings& settings = {}) {
-  return Plan(model, path_from(path, model), settings);
-}
-
 /// How the hand is turned, and how it turns, by the motors' references.
 HandTurns turns_at(HandKinematics& hand, const Reference& reference) {
   return hand.turns_at(reference.psi, reference.psid, reference.psidd, 0);

@@ -8,6 +8,7 @@
 #include "dynamics/assembly/load_scene.hpp"
 #include "dynamics/procedure/procedure.hpp"
 #include "planner/path.hpp"
+#include "planner/plan.hpp"
 
 namespace mixloop {
 
@@ -98,6 +99,11 @@ home: {r: 1 m}
 
 inline Path path_from(const std::string& text, const Model<double>& model) {
   return read_path(parse_document(text, "path.yaml"), *model.scene);
+}
+
+inline Plan plan_of(const Model<double>& model, const std::string& path,
+                    const Plan::Settings& settings = {}) {
+  return Plan(model, path_from(path, model), settings);
 }
 
 inline const char* const kPaperPath =

@@ -13,10 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Plan plan_of(const Model<double>& model, const std::string& path, const Plan::Settings& settings = {}) {
-  return Plan(model, path_from(path, model), settings);
-}
-
 /// Whether two references have the same bytes.
 bool same_bytes(const Reference& a, const Reference& b) {
   const std::size_t size = reference_size(static_cast<int>(a.psi.size())) * sizeof(double);

@@ -39,15 +39,17 @@ ActuatorSettings all_drives() {
 }
 
 FaultSettings all_faults() {
-  using Kind = Fault::Kind;
-  using Target = Fault::Target;
   return {.scheduled =
-              {{.kind = Kind::delayed, .index = 0, .magnitude = 0.005, .at = 0.09, .duration = 0.03},
-               {.kind = Kind::garbage, .index = 1, .magnitude = 2, .at = 0.05},
-               {.target = Target::sensor, .kind = Kind::slow, .magnitude = 0.01, .at = 0.08},
-               {.target = Target::parameter, .kind = Kind::changed, .index = 0, .magnitude = 3, .at = 0.07},
-               {.target = Target::friction, .kind = Kind::changed, .magnitude = 2, .at = 0.095},
-               {.kind = Kind::stuck, .at = 0.15, .duration = 0.01}},
+              {{.kind = Fault::Kind::delayed, .index = 0, .magnitude = 0.005, .at = 0.09, .duration = 0.03},
+               {.kind = Fault::Kind::garbage, .index = 1, .magnitude = 2, .at = 0.05},
+               {.target = Fault::Target::sensor, .kind = Fault::Kind::slow, .magnitude = 0.01, .at = 0.08},
+               {.target = Fault::Target::parameter,
+                .kind = Fault::Kind::changed,
+                .index = 0,
+                .magnitude = 3,
+                .at = 0.07},
+               {.target = Fault::Target::friction, .kind = Fault::Kind::changed, .magnitude = 2, .at = 0.095},
+               {.kind = Fault::Kind::stuck, .at = 0.15, .duration = 0.01}},
           .injected = true};
 }
 

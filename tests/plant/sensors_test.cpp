@@ -56,16 +56,16 @@ TEST(Sensors, AreOffByTheirBias) {
 
 // 20,000 draws; each bound is 4.4 standard deviations, missed by one seed in 1e5.
 TEST(Sensors, AddNormalNoiseOfTheirStandardDeviation) {
-  constexpr int kTicks = 20'000;
+  constexpr int kReadings = 20'000;
   constexpr double kSigma = 1e-3;
-  const auto said = readings({.noise = {kSigma}}, kTicks, swing);
+  const auto said = readings({.noise = {kSigma}}, kReadings, swing);
   double sum = 0, squares = 0;
-  for (int k = 0; k < kTicks; ++k) {
+  for (int k = 0; k < kReadings; ++k) {
     const double noise = (said[k].psi - swing(k)[0]) / kSigma;
     sum += noise, squares += noise * noise;
   }
-  EXPECT_LT(std::abs(sum / kTicks), 4.4 / std::sqrt(kTicks));
-  EXPECT_LT(std::abs(squares / kTicks - 1), 4.4 * std::sqrt(2.0 / kTicks));
+  EXPECT_LT(std::abs(sum / kReadings), 4.4 / std::sqrt(kReadings));
+  EXPECT_LT(std::abs(squares / kReadings - 1), 4.4 * std::sqrt(2.0 / kReadings));
 }
 
 TEST(Sensors, SayWhatWasSoManyTicksAgo) {
@@ -78,18 +78,18 @@ TEST(Sensors, SayWhatWasSoManyTicksAgo) {
 }
 
 TEST(Sensors, KeepTheLastReadingWhereOneIsDroppedAndSaySo) {
-  constexpr int kTicks = 20'000;
+  constexpr int kReadings = 20'000;
   constexpr double kDrop = 0.1;
-  const auto said = readings({.drop = {kDrop}}, kTicks, swing);
+  const auto said = readings({.drop = {kDrop}}, kReadings, swing);
   int dropped = 0;
-  for (int k = 0; k < kTicks; ++k) {
+  for (int k = 0; k < kReadings; ++k) {
     dropped += said[k].stale;
     const Reading expected = said[k].stale ? said[k - 1] : Reading{swing(k)[0], swing(k)[1], false};
     ASSERT_EQ(said[k].psi, expected.psi) << k;
     ASSERT_EQ(said[k].psid, expected.psid) << k;
   }
   EXPECT_FALSE(said[0].stale) << "there is none before it";
-  EXPECT_LT(std::abs(dropped - kDrop * kTicks), 4.4 * std::sqrt(kDrop * (1 - kDrop) * kTicks));
+  EXPECT_LT(std::abs(dropped - kDrop * kReadings), 4.4 * std::sqrt(kDrop * (1 - kDrop) * kReadings));
 }
 
 TEST(Sensors, DifferentiateWhatTheyReadOverATick) {

@@ -166,7 +166,7 @@ WideMatrix expected_of(Purpose purpose, const Expected& expected) {
 }
 
 /// Of every third mechanism all coordinates behind the first move freely.
-std::string text_of(const ClosedMechanism& mechanism, std::uint64_t seed) {
+std::string description_of(const ClosedMechanism& mechanism, std::uint64_t seed) {
   const std::string text = mechanism.scene_text();
   return seed % 3 == 0 && mechanism.n() > 1 ? with_free_ones(text, 1) : text;
 }
@@ -220,7 +220,7 @@ class Comparison {
     const ClosedMechanism mechanism(seed);
     SharedScene scene;
     try {
-      scene = scene_of(text_of(mechanism, seed));
+      scene = scene_of(description_of(mechanism, seed));
     } catch (const InputError& error) {
       // A guess that is off may lie between two ways to put the mechanism together.
       EXPECT_EQ(error.code, "ambiguous_branch") << error.message;

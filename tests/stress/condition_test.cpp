@@ -15,11 +15,6 @@
 namespace mixloop::stress {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// psi of the angles q2 = a and q3 = b at q1 = 0: (B-2) and (B-3) turned round.
-std::vector<double> motors(double a, double b) { return {0, -16 * a, -16 * b}; }
-
 /// M from the scene's machine code.
 class MassMatrix {
  public:
@@ -29,7 +24,7 @@ class MassMatrix {
                   std::array{payload}) {}
   Eigen::Matrix3d at(double a, double b) {
     Eigen::Matrix3d M;
-    dynamics_.evaluate(Purpose::mass_matrix, {.psi = motors(a, b)}, {M.data(), 9});
+    dynamics_.evaluate(Purpose::mass_matrix, {.psi = papers_motors(a, b)}, {M.data(), 9});
     return M;
   }
   struct Eigenvalues {
@@ -129,12 +124,13 @@ void search(const std::string& name, double payload) {
   Pose worst, worst_at_home;
   double least = HUGE_VAL;
   const auto where = [&](double a, double b) {
-    return fmt::format("q2 = {:.4f}, q3 = {:.4f} deg", a * 180 / kPi, b * 180 / kPi);
+    return fmt::format("q2 = {:.4f}, q3 = {:.4f} deg", a * 180 / std::numbers::pi,
+                       b * 180 / std::numbers::pi);
   };
   for (std::int64_t i = 0; i < grid; ++i)
     for (std::int64_t j = 0; j < grid; ++j) {
-      const double a = 2 * kPi * static_cast<double>(i) / static_cast<double>(grid),
-                   b = 2 * kPi * static_cast<double>(j) / static_cast<double>(grid);
+      const double a = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(grid),
+                   b = 2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(grid);
       const auto values = M.eigenvalues(a, b);
       least = std::min(least, values.least);
       figure.look(values.condition(), [&] { return where(a, b); });
@@ -142,7 +138,7 @@ void search(const std::string& name, double payload) {
       if (values.condition() > worst_at_home.condition && on_home_branch(a, b))
         worst_at_home = {a, b, values.condition()};
     }
-  worst = climb(M, worst, 2 * kPi / static_cast<double>(grid));
+  worst = climb(M, worst, 2 * std::numbers::pi / static_cast<double>(grid));
   figure.look(worst.condition, [&] { return where(worst.a, worst.b); });
   figure.note(fmt::format("at {}; on home's branch {:.4g} at {}; least eigenvalue {:.4g}",
                           where(worst.a, worst.b), worst_at_home.condition,

@@ -22,9 +22,6 @@ namespace {
 using oracle::Wide;
 constexpr double kPi = std::numbers::pi;
 
-/// psi of the angles q2 = a and q3 = b at q1 = 0: (B-2) and (B-3) turned round.
-std::vector<double> motors(double a, double b) { return {0, -16 * a, -16 * b}; }
-
 // The dynamics know nothing of a flat parallelogram (q4 = 180 deg) or a stretched elbow (q5 = 0): the
 // constraints are written for the motors, and M is as regular there as elsewhere. Approached to 1e-9 rad and
 // less, and met.
@@ -43,7 +40,7 @@ TEST(NearSingularDynamics, IsAsExactAsElsewhere) {
     const double away = seed % 8 == 0 ? 0 : log_uniform(random, 1e-9, 1e-1), a = uniform(random, 1, kPi)[0];
     // (B-4), (B-5): q4 = pi - a + beta + b, q5 = q5_o - r6 (q4 - gamma_o).
     const double q4 = seed % 2 == 0 ? kPi - away : robot.gamma_o + (robot.q5_o - away) / robot.r6;
-    State state{motors(a, q4 - kPi + a - robot.beta), uniform(random, 3, 50), uniform(random, 3, 5)};
+    State state{papers_motors(a, q4 - kPi + a - robot.beta), uniform(random, 3, 50), uniform(random, 3, 5)};
     state.psi[0] = uniform(random, 1, 10)[0];
     for (Route& route : ways) {
       std::vector<double> out(3);
@@ -202,7 +199,7 @@ TEST(PlanToFlatParallelogram, IsRefusedByName) {
   const auto numbers = oracle::paper_numbers<double>();
   const oracle::MixedLoopRobot<double> robot(numbers);
   const auto at = [&](double a, double q4) {
-    const auto psi = motors(a, q4 - kPi + a - numbers.beta);
+    const auto psi = papers_motors(a, q4 - kPi + a - numbers.beta);
     return Eigen::Vector3d(psi[0], psi[1], psi[2]);
   };
   Figure figure("plan_to_flat_parallelogram", "lines let through", 0, lines);

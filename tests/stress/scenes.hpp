@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "dynamics/scene/scene.hpp"
 
@@ -10,7 +11,9 @@ namespace mixloop::stress {
 
 using SharedScene = std::shared_ptr<const Scene>;
 
-SharedScene papers_robot();         ///< scenes/mixed_loop_robot.yaml
+SharedScene papers_robot();  ///< scenes/mixed_loop_robot.yaml
+/// psi of its angles q2 and q3 at q1 = 0: (B-2) and (B-3) turned round.
+inline std::vector<double> papers_motors(double q2, double q3) { return {0, -16 * q2, -16 * q3}; }
 SharedScene robot_of_parameters();  ///< the same, every mass, length and ratio a parameter
 SharedScene shipped_scene(const std::string& name);
 SharedScene scene_of(const std::string& text);
