@@ -43,6 +43,8 @@ class IdealPlant {
 
   /// Goes on from time `t` over `length` s, what is applied held.
   void integrate(State& state, double t, double length) {
+    if constexpr (requires { dynamics_.has_step(); })
+      if (model_.integrator.method == Method::rk4 && dynamics_.has_step()) return step(state, t, length);
     integrate(state, t, length,
               [&](const T& after, const Vec<T>& x, Vec<T>& dx) { rate_of(state, t + after, x, dx); });
   }
@@ -92,6 +94,12 @@ class IdealPlant {
   }
 
  private:
+  void step(State& state, double t, double length) {
+    const int substeps = model_.integrator.substeps;
+    for (int k = 0; k < substeps; ++k)
+      dynamics_.step(span_of(state.x), span_of(state.applied), t, length / substeps, k);
+  }
+
   Eigen::Index n() const { return static_cast<Eigen::Index>(model_.n); }
   Eigen::Index n_u() const { return static_cast<Eigen::Index>(model_.n_u); }
 

@@ -40,12 +40,21 @@ class Routine {
     else
       work_out(at, memory, outputs);
   }
+  /// Of forward dynamics: whether they have a whole step of Runge and Kutta's classical method.
+  bool has_step() const { return step_ != nullptr; }
+  /// x = psi, psi' and the inputs' work goes on by h s, from `step` such steps after t, the inputs held.
+  void step(double* x, std::span<const double> input, double t, double h, int step,
+            const Memory& memory) const noexcept {
+    step_(x, input.data(), t, h, step, memory.numbers.data());
+  }
 
  protected:
   /// An emitted evaluation (source.hpp).
   using Code = void (*)(const double* psi, const double* psid, const double* input, double t, const double* k,
                         double* outputs);
   Code code_ = nullptr;  ///< serves where there is one
+  using Step = void (*)(double* x, const double* input, double t, double h, int step, const double* k);
+  Step step_ = nullptr;
 
  private:
   virtual void work_out(const Arguments&, Memory&, double*) const noexcept {}
@@ -64,6 +73,10 @@ class Evaluator {
   Status evaluate(const Arguments& at, std::span<double> outputs) noexcept {
     routine_->run(at, memory_, outputs.data());
     return status_of(outputs);
+  }
+  bool has_step() const { return routine_ != nullptr && routine_->has_step(); }
+  void step(std::span<double> x, std::span<const double> input, double t, double h, int step) noexcept {
+    routine_->step(x.data(), input, t, h, step, memory_);
   }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "dynamics/program/program.hpp"
@@ -18,6 +19,8 @@ struct SourceStyle {
   std::string prefix = "mixloop";  ///< of the exported names; letters, digits and _
   Trigonometry trigonometry = Trigonometry::inlined;
   bool lanes = false;  ///< also evaluations on 4 and 8 states at once (GCC's vectors)
+  std::optional<int>
+      step_of;  ///< of forward dynamics of so many motors, also a whole step, where it is short
   bool exported =
       true;  ///< else PREFIX_run<Real, K> alone, a template on numbers and on what the set-up left
 };
@@ -32,7 +35,12 @@ std::string source_head(const SourceStyle& style);
 ///                 const double* k, double* out);
 ///     extern const int PREFIX_constants;   // how many doubles k has
 ///
-/// and with lanes PREFIX_4 and PREFIX_8, where each input and output is 4 or 8 consecutive doubles.
+/// with lanes PREFIX_4 and PREFIX_8, where each input and output is 4 or 8 consecutive doubles, and with a
+/// step
+///
+///     void PREFIX_step(double* x, const double* input, double t, double h, int step, const double* k);
+///
+/// which is left out of long programs (step_text.hpp).
 /// Identifiers are generated and constants are exact (hexadecimal): no text of the scene goes in.
 std::string source_of(const Program& program, const SourceStyle& style);
 
