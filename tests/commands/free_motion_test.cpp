@@ -23,7 +23,7 @@ nlohmann::json said_by(std::vector<std::string> words, const std::vector<std::st
   return command.json();
 }
 
-nlohmann::json simulated(const std::string& name, const std::vector<std::string>& more = {}) {
+nlohmann::json shipped_motion(const std::string& name, const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"simulate", experiment(name)};
   words.insert(words.end(), more.begin(), more.end());
   return said_by(words);
@@ -32,9 +32,9 @@ nlohmann::json simulated(const std::string& name, const std::vector<std::string>
 TEST(FreeMotion, HasTheSameBytesByEveryRoute) {
   for (const char* name : {"four_bar_swing", "slider_crank_swing", "hold_pose"}) {
     SCOPED_TRACE(name);
-    const auto simulation = simulated(name);
+    const auto simulation = shipped_motion(name);
     const auto& hash = simulation["trajectory_sha256"];
-    EXPECT_EQ(simulated(name, {"--evaluation", "interpreter"})["trajectory_sha256"], hash);
+    EXPECT_EQ(shipped_motion(name, {"--evaluation", "interpreter"})["trajectory_sha256"], hash);
     const auto run = said_by({"run", experiment(name)});
     EXPECT_EQ(run["trajectory_sha256"], hash);
     for (const char* measure : {"final_psi", "energy_drift", "max_torque", "verdict"})
@@ -43,7 +43,7 @@ TEST(FreeMotion, HasTheSameBytesByEveryRoute) {
 }
 
 TEST(FreeMotion, HasTheSameBytesOnABadNetwork) {
-  const auto hash = simulated("hold_pose")["trajectory_sha256"];
+  const auto hash = shipped_motion("hold_pose")["trajectory_sha256"];
   for (int seed = 1; seed <= 3; ++seed) {
     const auto run = said_by({"run", experiment("hold_pose")}, bad_network(seed));
     EXPECT_EQ(run["trajectory_sha256"], hash) << seed;
@@ -52,7 +52,7 @@ TEST(FreeMotion, HasTheSameBytesOnABadNetwork) {
 }
 
 TEST(FreeMotion, HasWhatThereIsAndNoPositionErrors) {
-  const auto result = simulated("slider_crank_swing");
+  const auto result = shipped_motion("slider_crank_swing");
   for (const char* none :
        {"max_position_error", "time_of_max_position_error", "final_position_error", "rms_position_error"})
     EXPECT_FALSE(result.contains(none)) << none;
@@ -203,7 +203,7 @@ TEST(FreeMotion, MayBeDrivenByAStrangersController) {
   stranger.run();
   EXPECT_EQ(run.wait(), 0) << run.out() << run.err();
   EXPECT_EQ(run.json()["verdict"], "held");
-  EXPECT_EQ(simulated("hold_pose")["verdict"], "held");
+  EXPECT_EQ(shipped_motion("hold_pose")["verdict"], "held");
   // A scene without an end effector, and everything that looks at it.
   const std::string scene = folder.file("link.yaml"), out = folder.file("kept");
   EXPECT_FALSE(said_by({"dynamics", scene, "--psi", "1"}).contains("end_effector"));

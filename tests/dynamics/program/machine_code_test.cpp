@@ -15,6 +15,7 @@
 #include "dynamics/program/lanes.hpp"
 #include "dynamics/program/machine_code.hpp"
 #include "dynamics/program/trace.hpp"
+#include "integrators/rk4.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
 #include "tests/support/allocation_counter.hpp"
@@ -87,6 +88,59 @@ TEST_F(MachineCodeTest, GivesTheInterpretersBits) {
         ASSERT_EQ(compiled, interpreted) << name << ", " << name_of(purpose) << ", state " << k;
       }
     }
+  }
+}
+
+/// x = psi, psi' and the motors' work after three steps of the method on evaluations.
+Vector stepped(Equations::Workspace dynamics, Vector x, std::span<const double> tau, double t, double h) {
+  const Eigen::Index n = dynamics.scene().n(), n_u = std::ssize(tau);
+  Rk4<double> method(n, x.size());
+  for (int step = 0; step < 3; ++step)
+    method.step(x, h, [&](int, double c, const Vector& at, Vector& dx) {
+      const std::span<const double> state = span_of(at);
+      dx.head(n) = at.segment(n, n);
+      dynamics.evaluate(Purpose::forward_dynamics,
+                        {state.first(at.size() / 2), state.subspan(at.size() / 2).first(dx.size() / 2), tau,
+                         t + (step + c) * h},
+                        span_of(dx).subspan(dx.size() / 2).first(dx.size() / 2));
+      dx[2 * n] = map_of(tau).dot(at.segment(n, n_u));
+    });
+  return x;
+}
+
+// With motors and without, open and of a formula in time.
+TEST_F(MachineCodeTest, AStepGivesTheBitsOfItsEvaluations) {
+  for (const char* name : {"mixed_loop_robot", "spatial_slider_crank", "cart_pole", "kapitza_pendulum"}) {
+    const auto scene = scene_named(name);
+    const std::vector<double> parameters = scene->default_parameters();
+    const auto of = [&](Evaluation how) {
+      return Equations::Workspace(equations_of(scene, how, {Purpose::forward_dynamics}), parameters);
+    };
+    Equations::Workspace compiled = of(Evaluation::machine_code);
+    const Equations::Workspace interpreted = of(Evaluation::interpreter);
+    ASSERT_TRUE(compiled.has_step()) << name;
+    ASSERT_FALSE(interpreted.has_step()) << name;
+    std::mt19937_64 random(9);
+    for (int k = 0; k < 100; ++k) {
+      const Sample sample = random_sample(*scene, random, 30.0);
+      Vector x(2 * scene->n() + 1);
+      x << map_of(std::span<const double>(sample.psi)), map_of(std::span<const double>(sample.psid)), 0.5;
+      const auto tau = std::span<const double>(sample.input).first(static_cast<std::size_t>(scene->n_u()));
+      const Vector expected = stepped(interpreted, x, tau, sample.t, 1e-3);
+      for (int step = 0; step < 3; ++step) compiled.step(span_of(x), tau, sample.t, 1e-3, step);
+      ASSERT_EQ(x, expected) << name << ", state " << k;
+    }
+  }
+}
+
+// Whose sum of the motors' work would have another order, or which a compiler would take long over.
+TEST_F(MachineCodeTest, ProgramsOfManyMotorsAndClosuresHaveNoStep) {
+  for (const char* name : {"puma_560", "slider_crank_closed"}) {
+    const auto scene = scene_named(name);
+    const Equations::Workspace dynamics(
+        equations_of(scene, Evaluation::machine_code, {Purpose::forward_dynamics}),
+        scene->default_parameters());
+    EXPECT_FALSE(dynamics.has_step()) << name;
   }
 }
 

@@ -9,20 +9,20 @@
 namespace mixloop {
 namespace {
 
-constexpr int kMotors = 3;
+constexpr int kAxes = 3;
 constexpr std::int64_t kSession = 77;
 
 std::optional<Reject> told(Conductor& conductor, std::int8_t action, std::int64_t seq = 0, double speed = 0,
                            std::int64_t session = kSession) {
-  Outbox<sim_control_t> message(kMotors);
-  set_header(message.message, {.n = kMotors, .seq = seq, .session = session});
+  Outbox<sim_control_t> message(kAxes);
+  set_header(message.message, {.n = kAxes, .seq = seq, .session = session});
   message.message.action = action;
   message.message.speed = speed;
   return conductor.hear(message.encode());
 }
 
 TEST(Conductor, LetsAllGoUntilItIsPaused) {
-  Conductor conductor(kMotors, kSession, false);
+  Conductor conductor(kAxes, kSession, false);
   EXPECT_TRUE(conductor.lets_go());
   EXPECT_EQ(told(conductor, sim_control_t::ACTION_PAUSE), std::nullopt);
   EXPECT_FALSE(conductor.lets_go());
@@ -32,7 +32,7 @@ TEST(Conductor, LetsAllGoUntilItIsPaused) {
 }
 
 TEST(Conductor, StepsAsManyTicksAsAreAskedFor) {
-  Conductor conductor(kMotors, kSession, true);
+  Conductor conductor(kAxes, kSession, true);
   EXPECT_FALSE(conductor.lets_go());
   told(conductor, sim_control_t::ACTION_STEP, 2);
   told(conductor, sim_control_t::ACTION_STEP, 1);
@@ -45,14 +45,14 @@ TEST(Conductor, StepsAsManyTicksAsAreAskedFor) {
 }
 
 TEST(Conductor, GivesANewSpeedOnce) {
-  Conductor conductor(kMotors, kSession, false);
+  Conductor conductor(kAxes, kSession, false);
   told(conductor, sim_control_t::ACTION_SPEED, 0, 0.5);
   EXPECT_EQ(conductor.new_speed(), 0.5);
   EXPECT_EQ(conductor.new_speed(), std::nullopt);
 }
 
 TEST(Conductor, HasNoSpeedThatNoClockCanKeep) {
-  Conductor lockstep(kMotors, kSession, false), real_time(kMotors, kSession, false, true);
+  Conductor lockstep(kAxes, kSession, false), real_time(kAxes, kSession, false, true);
   EXPECT_EQ(told(lockstep, sim_control_t::ACTION_SPEED, 0, 0), std::nullopt);
   EXPECT_EQ(told(real_time, sim_control_t::ACTION_SPEED, 0, 0), Reject::tick);
   EXPECT_EQ(told(lockstep, sim_control_t::ACTION_SPEED, 0, 1e-300), Reject::tick);
@@ -62,7 +62,7 @@ TEST(Conductor, HasNoSpeedThatNoClockCanKeep) {
 }
 
 TEST(Conductor, DropsWhatIsNotForIt) {
-  Conductor conductor(kMotors, kSession, false);
+  Conductor conductor(kAxes, kSession, false);
   EXPECT_EQ(told(conductor, sim_control_t::ACTION_PAUSE, 0, 0, kSession + 1), Reject::session);
   EXPECT_EQ(told(conductor, sim_control_t::ACTION_STEP, 0), Reject::tick);
   EXPECT_EQ(told(conductor, sim_control_t::ACTION_STEP, std::numeric_limits<std::int64_t>::max()),
