@@ -46,10 +46,10 @@ std::unique_ptr<const Routine> Equations::routine(const std::shared_ptr<const Sc
     Program whole = trace(scene, purpose).program;
     return position && !whole.outputs.empty() ? first_outputs(whole, 3) : whole;
   };
-  std::optional<int> step_of;
-  if (purpose == Purpose::forward_dynamics && !scene->is_closed()) step_of = scene->n_u();
+  std::optional<int> steps_of;
+  if (purpose == Purpose::forward_dynamics && !scene->is_closed()) steps_of = scene->n_u();
   auto found = made(std::string(position ? "position" : name_of(purpose)) + "\n" + scene->canonical, program,
-                    how, step_of);
+                    how, steps_of);
   if (found) return found;
   evaluation_ = Evaluation::reference;
   return reference_routine(scene, purpose);
@@ -68,7 +68,7 @@ std::unique_ptr<const Routine> Equations::of_closures(Evaluation how) {
 }
 
 std::unique_ptr<const Routine> Equations::made(const std::string& key, const std::function<Program()>& trace,
-                                               Evaluation how, std::optional<int> step_of) {
+                                               Evaluation how, std::optional<int> steps_of) {
   std::optional<Program> traced;
   const auto program = [&] {
     if (!traced) traced = trace();
@@ -76,7 +76,7 @@ std::unique_ptr<const Routine> Equations::made(const std::string& key, const std
   };
   if (how == Evaluation::machine_code) {
     std::string complaint;
-    if (auto code = MachineCode::load(key, program, complaint, step_of)) return code;
+    if (auto code = MachineCode::load(key, program, complaint, steps_of)) return code;
     if (complaint_.empty()) complaint_ = complaint;
   }
   if (program().outputs.empty()) return nullptr;

@@ -51,7 +51,7 @@ class Equations {
   std::unique_ptr<const Routine> of_closures(Evaluation how);
   /// Of a key and what it stands for; nothing for a program that is too long to trace.
   std::unique_ptr<const Routine> made(const std::string& key, const std::function<Program()>& program,
-                                      Evaluation how, std::optional<int> step_of = {});
+                                      Evaluation how, std::optional<int> steps_of = {});
 
   std::shared_ptr<const Scene> scene_;
   Evaluation evaluation_;
@@ -94,13 +94,16 @@ class Equations::Workspace {
     return follower_.evaluate(evaluator, at, takes, outputs, !holds_anchor_);
   }
 
-  /// Whether forward dynamics also come as whole steps of Runge and Kutta's classical method: as machine code
-  /// of short programs on few motors, where no chain closes.
-  bool has_step() const { return forward().has_step(); }
-  /// A step of h s, the bits of Rk4<double> on evaluations: x = psi, psi', n each, and the work of `tau`,
-  /// which is held. It begins `step` of them after t.
-  void step(std::span<double> x, std::span<const double> tau, double t, double h, int step) noexcept {
-    serving_[static_cast<std::size_t>(Purpose::forward_dynamics)].step(x, tau, t, h, step);
+  /// Whether forward dynamics come as whole steps of this method, too: as machine code, of up to three
+  /// motors, where no chain closes.
+  bool has_steps(StepsBy method) const {
+    return serving_[static_cast<std::size_t>(Purpose::forward_dynamics)].has_steps(method);
+  }
+  /// The bits of the method on evaluations: x = psi, psi', n each, and the work of `tau`, which is held, goes
+  /// on by `steps` steps of h s from t on.
+  void go_on(StepsBy method, std::span<double> x, std::span<const double> tau, double t, double h,
+             int steps) noexcept {
+    serving_[static_cast<std::size_t>(Purpose::forward_dynamics)].go_on(method, x, tau, t, h, steps);
   }
 
   /// From now on the anchor moves by `closures().accept` alone: whoever takes steps that may be rejected says
@@ -112,8 +115,6 @@ class Equations::Workspace {
 
  private:
   using Evaluators = std::array<Evaluator, kPurposes.size()>;
-
-  const Evaluator& forward() const { return serving_[static_cast<std::size_t>(Purpose::forward_dynamics)]; }
 
   std::shared_ptr<const Equations> equations_;
   std::vector<double> values_;    ///< the parameters', then the factor

@@ -92,4 +92,7 @@ class Integrator {
   Any steps_;
 };
 
+// Compiled once for double, in method.cpp.
+extern template class Integrator<double>;
+
 }  // namespace mixloop

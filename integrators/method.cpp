@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrators/dop853.hpp"
-#include "integrators/dormand_prince.hpp"
-#include "integrators/gauss.hpp"
+#include "integrators/integrator.hpp"
 
 namespace mixloop {
 namespace {
@@ -19,6 +17,8 @@ std::vector<double> nodes_of() {
 }
 
 }  // namespace
+
+template class Integrator<double>;
 
 const std::vector<MethodFacts>& all_methods() {
   // Held against the methods themselves by tests/integrators/stability_test.cpp.

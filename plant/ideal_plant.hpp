@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "dynamics/procedure/purpose.hpp"
+#include "dynamics/program/routine.hpp"
 #include "integrators/integrator.hpp"
 #include "plant/plant_model.hpp"
 #include "plant/plant_state.hpp"
@@ -43,8 +45,11 @@ class IdealPlant {
 
   /// Goes on from time `t` over `length` s, what is applied held.
   void integrate(State& state, double t, double length) {
-    if constexpr (requires { dynamics_.has_step(); })
-      if (model_.integrator.method == Method::rk4 && dynamics_.has_step()) return step(state, t, length);
+    if constexpr (requires { dynamics_.has_steps(StepsBy::rk4); })
+      if (const auto method = compiled_method(); method && dynamics_.has_steps(*method)) {
+        const int steps = model_.integrator.substeps;
+        return dynamics_.go_on(*method, span_of(state.x), span_of(state.applied), t, length / steps, steps);
+      }
     integrate(state, t, length,
               [&](const T& after, const Vec<T>& x, Vec<T>& dx) { rate_of(state, t + after, x, dx); });
   }
@@ -94,10 +99,11 @@ class IdealPlant {
   }
 
  private:
-  void step(State& state, double t, double length) {
-    const int substeps = model_.integrator.substeps;
-    for (int k = 0; k < substeps; ++k)
-      dynamics_.step(span_of(state.x), span_of(state.applied), t, length / substeps, k);
+  std::optional<StepsBy> compiled_method() const {
+    const Method method = model_.integrator.method;
+    if (method == Method::rk4) return StepsBy::rk4;
+    if (method == Method::leapfrog) return StepsBy::leapfrog;
+    return std::nullopt;
   }
 
   Eigen::Index n() const { return static_cast<Eigen::Index>(model_.n); }

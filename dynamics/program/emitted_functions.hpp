@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "dynamics/program/routine.hpp"
 #include "dynamics/program/shared_object.hpp"
 
 namespace mixloop {
@@ -15,7 +17,6 @@ template <class Time>
 class EmittedFunctions {
  public:
   using Evaluate = void (*)(const double*, const double*, const double*, Time, const double*, double*);
-  using Step = void (*)(double*, const double*, double, double, int, const double*);
 
   /// False for an empty library, or with a complaint when a function is missing. `name` is the evaluation's.
   bool load(SharedObject library, const std::string& prefix, const std::string& name,
@@ -24,7 +25,9 @@ class EmittedFunctions {
     library_ = std::move(library);
     set_up_ = reinterpret_cast<SetUp>(library_.symbol(prefix + "_set_up"));
     evaluate_ = reinterpret_cast<Evaluate>(library_.symbol(name));
-    step_ = reinterpret_cast<Step>(library_.symbol(prefix + "_step"));
+    for (StepsBy method : {StepsBy::rk4, StepsBy::leapfrog})
+      steps_[static_cast<std::size_t>(method)] =
+          reinterpret_cast<Steps>(library_.symbol(prefix + "_" + name_of(method)));
     const auto* count = static_cast<const int*>(library_.symbol(prefix + "_constants"));
     if (set_up_ == nullptr || evaluate_ == nullptr || count == nullptr) {
       complaint = "the built program lacks its functions";
@@ -40,8 +43,8 @@ class EmittedFunctions {
     set_up_(parameters.data(), constants.data());
   }
   Evaluate evaluate() const { return evaluate_; }
-  /// Null where there is none.
-  Step step() const { return step_; }
+  /// By StepsBy; null where there is none.
+  const std::array<Steps, 2>& steps() const { return steps_; }
 
  private:
   using SetUp = void (*)(const double*, double*);
@@ -49,7 +52,7 @@ class EmittedFunctions {
   SharedObject library_;
   SetUp set_up_ = nullptr;
   Evaluate evaluate_ = nullptr;
-  Step step_ = nullptr;
+  std::array<Steps, 2> steps_{};
   std::size_t constants_ = 0;
 };
 

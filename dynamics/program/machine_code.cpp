@@ -13,8 +13,8 @@ bool is_compiled(const Program& program) {
 std::string MachineCode::hindrance() { return SharedObject::hindrance(); }
 
 std::unique_ptr<MachineCode> MachineCode::load(const std::string& key, const std::function<Program()>& trace,
-                                               std::string& complaint, std::optional<int> step_of) {
-  const SourceStyle style{.step_of = step_of};
+                                               std::string& complaint, std::optional<int> steps_of) {
+  const SourceStyle style{.steps_of = steps_of};
   const auto source = [&] {
     const Program program = trace();
     return is_compiled(program) ? source_head(style) + source_of(program, style) : std::string();
@@ -23,7 +23,7 @@ std::unique_ptr<MachineCode> MachineCode::load(const std::string& key, const std
   SharedObject library = SharedObject::cached("program:" + key, source, complaint);
   if (!code->emitted_.load(std::move(library), style.prefix, style.prefix, complaint)) return nullptr;
   code->code_ = code->emitted_.evaluate();
-  code->step_ = code->emitted_.step();
+  code->steps_ = code->emitted_.steps();
   return code;
 }
 

@@ -25,9 +25,9 @@ class MachineCode final : public Routine {
   /// The code kept under `key` (a text that says which program it is), else built from what `trace`
   /// returns; `trace` is not called otherwise. nullptr when it can't be had: no compiler, no private
   /// directory, a full disk, and `complaint` says which; or, with no complaint, a program too long.
-  /// `step_of`: as SourceStyle says.
+  /// `steps_of`: as SourceStyle says.
   static std::unique_ptr<MachineCode> load(const std::string& key, const std::function<Program()>& trace,
-                                           std::string& complaint, std::optional<int> step_of = {});
+                                           std::string& complaint, std::optional<int> steps_of = {});
 
   /// Why no machine code can be had here (no compiler, no private directory); empty where it can.
   static std::string hindrance();

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <any>
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,6 +17,13 @@ struct Arguments {
   std::span<const double> psi, psid, input;
   double t = 0.0;
 };
+
+/// A method whose whole steps stand in machine code beside forward dynamics (steps_text.hpp).
+enum class StepsBy : std::uint8_t { rk4, leapfrog };
+inline const char* name_of(StepsBy method) { return method == StepsBy::rk4 ? "rk4" : "leapfrog"; }
+
+/// An emitted function of such steps (source.hpp).
+using Steps = void (*)(double* x, const double* input, double t, double h, int steps, const double* k);
 
 /// What one user of a routine keeps between evaluations.
 struct Memory {
@@ -40,12 +49,12 @@ class Routine {
     else
       work_out(at, memory, outputs);
   }
-  /// Of forward dynamics: whether they have a whole step of Runge and Kutta's classical method.
-  bool has_step() const { return step_ != nullptr; }
-  /// x = psi, psi' and the inputs' work goes on by h s, from `step` such steps after t, the inputs held.
-  void step(double* x, std::span<const double> input, double t, double h, int step,
-            const Memory& memory) const noexcept {
-    step_(x, input.data(), t, h, step, memory.numbers.data());
+  /// Of forward dynamics: whether they come as whole steps of this method, too.
+  bool has_steps(StepsBy method) const { return steps_[static_cast<std::size_t>(method)] != nullptr; }
+  /// x = psi, psi' and the inputs' work goes on by `steps` steps of h s from t on, the inputs held.
+  void go_on(StepsBy method, double* x, std::span<const double> input, double t, double h, int steps,
+             const Memory& memory) const noexcept {
+    steps_[static_cast<std::size_t>(method)](x, input.data(), t, h, steps, memory.numbers.data());
   }
 
  protected:
@@ -53,8 +62,7 @@ class Routine {
   using Code = void (*)(const double* psi, const double* psid, const double* input, double t, const double* k,
                         double* outputs);
   Code code_ = nullptr;  ///< serves where there is one
-  using Step = void (*)(double* x, const double* input, double t, double h, int step, const double* k);
-  Step step_ = nullptr;
+  std::array<Steps, 2> steps_{};
 
  private:
   virtual void work_out(const Arguments&, Memory&, double*) const noexcept {}
@@ -74,9 +82,10 @@ class Evaluator {
     routine_->run(at, memory_, outputs.data());
     return status_of(outputs);
   }
-  bool has_step() const { return routine_ != nullptr && routine_->has_step(); }
-  void step(std::span<double> x, std::span<const double> input, double t, double h, int step) noexcept {
-    routine_->step(x.data(), input, t, h, step, memory_);
+  bool has_steps(StepsBy method) const { return routine_ != nullptr && routine_->has_steps(method); }
+  void go_on(StepsBy method, std::span<double> x, std::span<const double> input, double t, double h,
+             int steps) noexcept {
+    routine_->go_on(method, x.data(), input, t, h, steps, memory_);
   }
 
  private:

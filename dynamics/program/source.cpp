@@ -17,7 +17,7 @@ extern const char* const kFusedText;
 extern const char* const kElementaryText;
 extern const char* const kSincosText;
 extern const char* const kLanesText;
-extern const char* const kStepText;
+extern const char* const kStepsText;
 
 namespace {
 
@@ -39,10 +39,8 @@ std::string number(double x) {
 // Longer programs are written in parts of so many statements.
 constexpr std::size_t kMostSteps = 1000;
 
-// Longer ones have no step: four evaluations in one function take a compiler long, and overlap little.
-constexpr std::size_t kMostStatementsInStep = 250;
-// The work of more would be a sum in another order than a plant's.
-constexpr int kMostMotorsInStep = 3;
+// The work of more is a sum in another order than a plant's.
+constexpr int kMostMotorsOfSteps = 3;
 
 class Writer {
  public:
@@ -145,21 +143,21 @@ class Writer {
         "extern \"C\" void {0}(const double* psi, const double* psid, const double* input, double t, "
         "const double* k, double* out) {{\n  {0}_run<double, double>(psi, psid, input, t, k, out);\n}}",
         style_.prefix);
-    if (style_.step_of) export_step(*style_.step_of);
+    if (style_.steps_of) export_steps(*style_.steps_of);
     if (!style_.lanes) return;
     for (int lanes : {4, 8}) export_lanes(lanes);
   }
 
-  void export_step(int motors) {
-    if (motors > kMostMotorsInStep || statements_.of(Stage::run).size() > kMostStatementsInStep) return;
-    line(
-        "extern \"C\" MIXLOOP_FLATTEN void {0}_step(double* x, const double* input, double t, double h, int "
-        "step, "
-        "const double* k) {{\n"
-        "  mixloop_steps::rk4<{1}, {2}>(x, input, t, h, step, "
-        "[=](const double* psi, const double* psid, double at, double* psidd) {{\n"
-        "    {0}_run<double, double>(psi, psid, input, at, k, psidd);\n  }});\n}}",
-        style_.prefix, program_.outputs.size(), motors);
+  void export_steps(int motors) {
+    if (motors > kMostMotorsOfSteps) return;
+    for (const char* method : {"rk4", "leapfrog"})
+      line(
+          "extern \"C\" void {0}_{1}(double* x, const double* input, double t, double h, int steps, "
+          "const double* k) {{\n"
+          "  mixloop_steps::{1}<{2}, {3}>(x, input, t, h, steps, "
+          "[=](const double* psi, const double* psid, double at, double* psidd) {{\n"
+          "    {0}_run<double, double>(psi, psid, input, at, k, psidd);\n  }});\n}}",
+          style_.prefix, method, program_.outputs.size(), motors);
   }
 
   // The caller's memory is aligned for doubles only: whole vectors are loaded and stored loosely.
@@ -314,11 +312,6 @@ constexpr const char* kFunctions = R"(
 #else
 #define MIXLOOP_PART MIXLOOP_FUNCTION inline
 #endif
-#if defined(__GNUC__)
-#define MIXLOOP_FLATTEN __attribute__((flatten))
-#else
-#define MIXLOOP_FLATTEN
-#endif
 namespace mixloop_functions {
 MIXLOOP_INLINE double root(double x) { return sqrt(x); }
 }  // namespace mixloop_functions
@@ -334,7 +327,7 @@ std::string source_head(const SourceStyle& style) {
   head += kElementaryText;
   head += kFunctions;
   if (style.lanes) head += kLanesText;
-  if (style.step_of) head += kStepText;
+  if (style.steps_of) head += kStepsText;
   return head;
 }
 

@@ -18,9 +18,8 @@ enum class Trigonometry : std::uint8_t {
 struct SourceStyle {
   std::string prefix = "mixloop";  ///< of the exported names; letters, digits and _
   Trigonometry trigonometry = Trigonometry::inlined;
-  bool lanes = false;  ///< also evaluations on 4 and 8 states at once (GCC's vectors)
-  std::optional<int>
-      step_of;  ///< of forward dynamics of so many motors, also a whole step, where it is short
+  bool lanes = false;           ///< also evaluations on 4 and 8 states at once (GCC's vectors)
+  std::optional<int> steps_of;  ///< of forward dynamics of so many motors, also whole steps
   bool exported =
       true;  ///< else PREFIX_run<Real, K> alone, a template on numbers and on what the set-up left
 };
@@ -35,13 +34,14 @@ std::string source_head(const SourceStyle& style);
 ///                 const double* k, double* out);
 ///     extern const int PREFIX_constants;   // how many doubles k has
 ///
-/// with lanes PREFIX_4 and PREFIX_8, where each input and output is 4 or 8 consecutive doubles, and with a
-/// step
+/// with lanes PREFIX_4 and PREFIX_8, where each input and output is 4 or 8 consecutive doubles, and with
+/// steps
 ///
-///     void PREFIX_step(double* x, const double* input, double t, double h, int step, const double* k);
+///     void PREFIX_rk4(double* x, const double* input, double t, double h, int steps, const double* k);
 ///
-/// which is left out of long programs (step_text.hpp).
-/// Identifiers are generated and constants are exact (hexadecimal): no text of the scene goes in.
+/// and PREFIX_leapfrog (steps_text.hpp), where there are no more than three motors: the sum that is the work
+/// of more has another order in a plant. Identifiers are generated and constants are exact (hexadecimal): no
+/// text of the scene goes in.
 std::string source_of(const Program& program, const SourceStyle& style);
 
 }  // namespace mixloop

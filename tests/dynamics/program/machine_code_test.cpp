@@ -15,6 +15,7 @@
 #include "dynamics/program/lanes.hpp"
 #include "dynamics/program/machine_code.hpp"
 #include "dynamics/program/trace.hpp"
+#include "integrators/leapfrog.hpp"
 #include "integrators/rk4.hpp"
 #include "notation/document.hpp"
 #include "tests/oracles/chains.hpp"
@@ -91,25 +92,26 @@ TEST_F(MachineCodeTest, GivesTheInterpretersBits) {
   }
 }
 
-/// x = psi, psi' and the motors' work after three steps of the method on evaluations.
-Vector stepped(Equations::Workspace dynamics, Vector x, std::span<const double> tau, double t, double h) {
-  const Eigen::Index n = dynamics.scene().n(), n_u = std::ssize(tau);
-  Rk4<double> method(n, x.size());
+/// x = psi, psi' and the motors' work after three steps of a method on evaluations.
+template <class Stepper>
+Vector stepped(Stepper method, Equations::Workspace dynamics, Vector x, std::span<const double> tau, double t,
+               double h) {
+  const auto n = static_cast<std::size_t>(dynamics.scene().n());
+  method.begin();
   for (int step = 0; step < 3; ++step)
     method.step(x, h, [&](int, double c, const Vector& at, Vector& dx) {
       const std::span<const double> state = span_of(at);
-      dx.head(n) = at.segment(n, n);
+      dx.head(x.size() / 2) = at.segment(x.size() / 2, x.size() / 2);
       dynamics.evaluate(Purpose::forward_dynamics,
-                        {state.first(at.size() / 2), state.subspan(at.size() / 2).first(dx.size() / 2), tau,
-                         t + (step + c) * h},
-                        span_of(dx).subspan(dx.size() / 2).first(dx.size() / 2));
-      dx[2 * n] = map_of(tau).dot(at.segment(n, n_u));
+                        {state.first(n), state.subspan(n, n), tau, t + (step + c) * h},
+                        span_of(dx).subspan(n, n));
+      dx[x.size() - 1] = map_of(tau).dot(at.segment(x.size() / 2, std::ssize(tau)));
     });
   return x;
 }
 
-// With motors and without, open and of a formula in time.
-TEST_F(MachineCodeTest, AStepGivesTheBitsOfItsEvaluations) {
+// With motors and without, and of a formula in time.
+TEST_F(MachineCodeTest, WholeStepsGiveTheBitsOfTheirEvaluations) {
   for (const char* name : {"mixed_loop_robot", "spatial_slider_crank", "cart_pole", "kapitza_pendulum"}) {
     const auto scene = scene_named(name);
     const std::vector<double> parameters = scene->default_parameters();
@@ -118,29 +120,36 @@ TEST_F(MachineCodeTest, AStepGivesTheBitsOfItsEvaluations) {
     };
     Equations::Workspace compiled = of(Evaluation::machine_code);
     const Equations::Workspace interpreted = of(Evaluation::interpreter);
-    ASSERT_TRUE(compiled.has_step()) << name;
-    ASSERT_FALSE(interpreted.has_step()) << name;
+    ASSERT_FALSE(interpreted.has_steps(StepsBy::rk4)) << name;
     std::mt19937_64 random(9);
     for (int k = 0; k < 100; ++k) {
       const Sample sample = random_sample(*scene, random, 30.0);
-      Vector x(2 * scene->n() + 1);
-      x << map_of(std::span<const double>(sample.psi)), map_of(std::span<const double>(sample.psid)), 0.5;
+      const Eigen::Index n = scene->n(), size = 2 * n + 1;
+      Vector start(size);
+      start << map_of(std::span<const double>(sample.psi)), map_of(std::span<const double>(sample.psid)), 0.5;
       const auto tau = std::span<const double>(sample.input).first(static_cast<std::size_t>(scene->n_u()));
-      const Vector expected = stepped(interpreted, x, tau, sample.t, 1e-3);
-      for (int step = 0; step < 3; ++step) compiled.step(span_of(x), tau, sample.t, 1e-3, step);
-      ASSERT_EQ(x, expected) << name << ", state " << k;
+      for (StepsBy method : {StepsBy::rk4, StepsBy::leapfrog}) {
+        ASSERT_TRUE(compiled.has_steps(method)) << name;
+        Vector x = start;
+        compiled.go_on(method, span_of(x), tau, sample.t, 1e-3, 3);
+        const Vector expected =
+            method == StepsBy::rk4
+                ? stepped(Rk4<double>(n, size), interpreted, start, tau, sample.t, 1e-3)
+                : stepped(Leapfrog<double>(n, size), interpreted, start, tau, sample.t, 1e-3);
+        ASSERT_EQ(x, expected) << name << ", " << name_of(method) << ", state " << k;
+      }
     }
   }
 }
 
-// Whose sum of the motors' work would have another order, or which a compiler would take long over.
-TEST_F(MachineCodeTest, ProgramsOfManyMotorsAndClosuresHaveNoStep) {
+// The sum that is the work of more than three motors has another order; closures are solved from a start.
+TEST_F(MachineCodeTest, ManyMotorsAndClosuresHaveNoWholeSteps) {
   for (const char* name : {"puma_560", "slider_crank_closed"}) {
     const auto scene = scene_named(name);
     const Equations::Workspace dynamics(
         equations_of(scene, Evaluation::machine_code, {Purpose::forward_dynamics}),
         scene->default_parameters());
-    EXPECT_FALSE(dynamics.has_step()) << name;
+    EXPECT_FALSE(dynamics.has_steps(StepsBy::rk4)) << name;
   }
 }
 
