@@ -25,6 +25,11 @@ std::string joined(std::span<const std::string> words, std::string_view between)
   return text;
 }
 
+std::string enumerated(std::span<const std::string> words) {
+  if (words.size() < 2) return joined(words);
+  return joined(words.first(words.size() - 1)) + " and " + words.back();
+}
+
 std::string joined(std::span<const int> numbers, std::string_view between) {
   std::vector<std::string> words;
   for (const int number : numbers) words.push_back(std::to_string(number));

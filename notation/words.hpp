@@ -13,6 +13,9 @@ std::string_view trimmed(std::string_view text);
 /// The words of a list, `between` each two.
 std::string joined(std::span<const std::string> words, std::string_view between = ", ");
 
+/// As a sentence lists them: a, b and c.
+std::string enumerated(std::span<const std::string> words);
+
 /// The numbers of a list.
 std::string joined(std::span<const int> numbers, std::string_view between);
 /// The same, each as fmt writes a double by `format`.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "processes/config_words.hpp"
-#include "notation/words.hpp"
 
 #include <fmt/format.h>
+
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {

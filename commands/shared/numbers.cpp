@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "commands/shared/numbers.hpp"
-#include "notation/words.hpp"
 
 #include <fmt/format.h>
+
+#include "notation/words.hpp"
 
 namespace mixloop {
 

@@ -9,6 +9,7 @@
 #include "dynamics/procedure/decompositions.hpp"
 #include "dynamics/procedure/procedure.hpp"
 #include "notation/utf8.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
@@ -66,13 +67,6 @@ std::optional<FreeMotion> free_motion(const Model<double>& model, const Workspac
   return FreeMotion{scale.cwiseProduct(found.V.col(least)), false};
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + in_quotes(names[i]);
-  return text;
-}
-
 std::string description(const Model<double>& model, const Workspace<double>& ws, const FreeMotion& motion) {
   const Scene& scene = *model.scene;
   std::vector<std::string> coordinates, bodies;
@@ -81,28 +75,28 @@ std::string description(const Model<double>& model, const Workspace<double>& ws,
   for (Eigen::Index i = 0; i < model.n(); ++i) {
     if (motion.each ? motion.psid[i] == 0 : share[i] < 0.1 * share.maxCoeff()) continue;
     const auto& independent = scene.independent[static_cast<std::size_t>(i)];
-    coordinates.push_back(independent.name);
+    coordinates.push_back(in_quotes(independent.name));
     (independent.driven ? free : driven) = false;
   }
   const Vector moved = ws.C * motion.psid;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const auto& path = model.path(model.bodies[b].frame);
     if (std::any_of(path.begin(), path.end(), [&](int j) { return moved[j] != 0; }))
-      bodies.push_back(scene.bodies[b].name);
+      bodies.push_back(in_quotes(scene.bodies[b].name));
   }
   const bool several = coordinates.size() > 1;
   const std::string who = fmt::format("{}{} {}",
                                       driven ? "motor"
                                       : free ? "free coordinate"
                                              : "coordinate",
-                                      several ? "s" : "", listed(coordinates));
+                                      several ? "s" : "", enumerated(coordinates));
   if (!motion.each) return who + " can move together without any inertia against it";
   if (bodies.empty())
     return fmt::format("no body hangs on {}; expected one that it moves, or the scene without it", who);
   return fmt::format(
       "{} {} no inertia: of what moves so, {} {} the mass on the axis and no moment of inertia about it; "
       "expected an inertia there",
-      who, several ? "move" : "moves", listed(bodies), bodies.size() > 1 ? "have" : "has");
+      who, several ? "move" : "moves", enumerated(bodies), bodies.size() > 1 ? "have" : "has");
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <utility>
@@ -25,7 +24,7 @@ class EmittedFunctions {
     library_ = std::move(library);
     set_up_ = reinterpret_cast<SetUp>(library_.symbol(prefix + "_set_up"));
     evaluate_ = reinterpret_cast<Evaluate>(library_.symbol(name));
-    for (StepsBy method : {StepsBy::rk4, StepsBy::leapfrog})
+    for (StepsBy method : kStepsBy)
       steps_[static_cast<std::size_t>(method)] =
           reinterpret_cast<Steps>(library_.symbol(prefix + "_" + name_of(method)));
     const auto* count = static_cast<const int*>(library_.symbol(prefix + "_constants"));
@@ -44,7 +43,7 @@ class EmittedFunctions {
   }
   Evaluate evaluate() const { return evaluate_; }
   /// By StepsBy; null where there is none.
-  const std::array<Steps, 2>& steps() const { return steps_; }
+  const StepsOfEach& steps() const { return steps_; }
 
  private:
   using SetUp = void (*)(const double*, double*);
@@ -52,7 +51,7 @@ class EmittedFunctions {
   SharedObject library_;
   SetUp set_up_ = nullptr;
   Evaluate evaluate_ = nullptr;
-  std::array<Steps, 2> steps_{};
+  StepsOfEach steps_{};
   std::size_t constants_ = 0;
 };
 

@@ -20,10 +20,13 @@ struct Arguments {
 
 /// A method whose whole steps stand in machine code beside forward dynamics (steps_text.hpp).
 enum class StepsBy : std::uint8_t { rk4, leapfrog };
+constexpr std::array kStepsBy{StepsBy::rk4, StepsBy::leapfrog};
 inline const char* name_of(StepsBy method) { return method == StepsBy::rk4 ? "rk4" : "leapfrog"; }
 
 /// An emitted function of such steps (source.hpp).
 using Steps = void (*)(double* x, const double* input, double t, double h, int steps, const double* k);
+
+using StepsOfEach = std::array<Steps, kStepsBy.size()>;
 
 /// What one user of a routine keeps between evaluations.
 struct Memory {
@@ -62,7 +65,7 @@ class Routine {
   using Code = void (*)(const double* psi, const double* psid, const double* input, double t, const double* k,
                         double* outputs);
   Code code_ = nullptr;  ///< serves where there is one
-  std::array<Steps, 2> steps_{};
+  StepsOfEach steps_{};
 
  private:
   virtual void work_out(const Arguments&, Memory&, double*) const noexcept {}

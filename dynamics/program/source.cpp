@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "dynamics/program/routine.hpp"
 #include "dynamics/program/statements.hpp"
 #include "dynamics/symbolic/operations.hpp"
 
@@ -150,14 +151,14 @@ class Writer {
 
   void export_steps(int motors) {
     if (motors > kMostMotorsOfSteps) return;
-    for (const char* method : {"rk4", "leapfrog"})
+    for (StepsBy method : kStepsBy)
       line(
           "extern \"C\" void {0}_{1}(double* x, const double* input, double t, double h, int steps, "
           "const double* k) {{\n"
           "  mixloop_steps::{1}<{2}, {3}>(x, input, t, h, steps, "
           "[=](const double* psi, const double* psid, double at, double* psidd) {{\n"
           "    {0}_run<double, double>(psi, psid, input, at, k, psidd);\n  }});\n}}",
-          style_.prefix, method, program_.outputs.size(), motors);
+          style_.prefix, name_of(method), program_.outputs.size(), motors);
   }
 
   // The caller's memory is aligned for doubles only: whole vectors are loaded and stored loosely.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "notation/sha256.hpp"
+#include "notation/words.hpp"
 
 namespace mixloop {
 namespace {
@@ -46,11 +47,7 @@ std::string name_difference(std::int64_t mine, std::int64_t theirs) {
   std::vector<std::string> names;
   for (const Part& part : kParts)
     if (unpack_config(mine).*part.hash != unpack_config(theirs).*part.hash) names.emplace_back(part.name);
-
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
+  return enumerated(names);
 }
 
 std::string describe_difference(std::int64_t mine, std::int64_t theirs, const ConfigWords& words) {

@@ -128,7 +128,7 @@ TEST_F(MachineCodeTest, WholeStepsGiveTheBitsOfTheirEvaluations) {
       Vector start(size);
       start << map_of(std::span<const double>(sample.psi)), map_of(std::span<const double>(sample.psid)), 0.5;
       const auto tau = std::span<const double>(sample.input).first(static_cast<std::size_t>(scene->n_u()));
-      for (StepsBy method : {StepsBy::rk4, StepsBy::leapfrog}) {
+      for (StepsBy method : kStepsBy) {
         ASSERT_TRUE(compiled.has_steps(method)) << name;
         Vector x = start;
         compiled.go_on(method, span_of(x), tau, sample.t, 1e-3, 3);
